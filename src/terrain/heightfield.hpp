@@ -6,11 +6,12 @@
 
 namespace wold {
 
-/// Sample (i, j) lies at origin + cell · (i, j); heights in metres above the scene's zero. Value type.
+/// Sample (i, j) lies at origin + cell · (i, j); heights in metres above the scene's zero. Value
+/// type.
 struct Heightfield {
-  Grid<float> height; ///< m
-  DVec2 origin{0};    ///< m, place of sample (0, 0), the south-west corner
-  double cell = 1;    ///< m, distance between neighbours
+  Grid<float> height;  ///< m
+  DVec2 origin{0};     ///< m, place of sample (0, 0), the south-west corner
+  double cell = 1;     ///< m, distance between neighbours
 
   /// Extent between the outermost samples, m.
   DVec2 size() const { return {cell * (height.width() - 1), cell * (height.height() - 1)}; }
@@ -19,8 +20,8 @@ struct Heightfield {
 
 /// Height and slope at a place; outside, of the nearest place on the border.
 struct GroundSample {
-  float height = 0; ///< m
-  Vec2 gradient{0}; ///< dh/dx, dh/dy
+  float height = 0;  ///< m
+  Vec2 gradient{0};  ///< dh/dx, dh/dy
 };
 
 /// Bicubic (Catmull-Rom): continuous height and gradient.
@@ -29,4 +30,4 @@ GroundSample ground_at(const Heightfield& field, DVec2 place);
 /// Upward unit normal from a gradient.
 Vec3 normal_of(Vec2 gradient);
 
-} // namespace wold
+}  // namespace wold
