@@ -1,0 +1,105 @@
+#pragma once
+// The sky as a light: sun, sky and haze of one moment at one place.
+//
+// All light is photometric: linear Rec. 709 whose 0.2126 R + 0.7152 G + 0.0722 B is luminance in
+// cd/m² (radiance) or illuminance in lx (irradiance). A clear noon: sky about 3000 to 10 000 cd/m²,
+// sun about 1.6e9 cd/m², 100 klx at right angles.
+//
+// The sky is held as a table over azimuth and elevation (finest at the horizon) and looked up
+// bilinearly; the same table gives the density for sampling. Directions below the horizon show an
+// endless hazy plain: the horizon's colour, giving way to sunlit ground further down. Below the
+// horizon the sun and the sky fade as in twilight down to a dark blue night.
+
+#include <vector>
+
+#include "base/grid.hpp"
+#include "base/parameters.hpp"
+#include "base/value.hpp"
+#include "base/vec.hpp"
+#include "sky/haze.hpp"
+#include "sky/sun_position.hpp"
+
+namespace wold {
+
+enum class SkyModel { preetham };
+
+struct SkySettings {
+  SkyModel model = SkyModel::preetham;
+  DVec2 place{49.2, 16.6};  ///< degrees, latitude and longitude
+  DateTime time{2026, 6, 21, 16, 30, 0, 120};
+  std::vector<double> sun;  ///< [elevation, azimuth], degrees; empty: by time
+  float turbidity = 2.5F;
+  float ground_albedo = 0.2F;
+  float sun_size = 0.53F;  ///< degrees across
+  float sky_intensity = 1;
+  float sun_intensity = 1;
+  bool haze = true;
+  float visibility = 40000;  ///< m
+  float haze_height = 1200;  ///< m, over which haze thins to 1/e
+};
+
+Description<SkySettings> describe(const SkySettings&);
+
+/// A direction to light, what comes from there, and the density per steradian with which it was
+/// chosen; 0 when there is no light to choose.
+struct SkySample {
+  Vec3 direction{0, 0, 1};
+  Vec3 radiance{0};
+  float pdf = 0;
+};
+
+class Sky {
+ public:
+  /// Throws Error(input) when `sun` has neither 0 nor 2 numbers or an elevation beyond ±90°.
+  explicit Sky(const SkySettings& settings = {});
+
+  /// The sky without the sun's disc, cd/m². Any unit vector.
+  Vec3 radiance(Vec3 direction) const;
+  /// Chosen by luminance; directions below the horizon are chosen more seldom than their
+  /// luminance asks for.
+  SkySample sample_sky(Vec2 u) const;
+  float sky_pdf(Vec3 direction) const;
+  /// Of a horizontal surface by the sky above it, without the sun, lx.
+  Vec3 sky_irradiance() const { return sky_irradiance_; }
+
+  /// Unit vector towards the centre of the sun; may point below the horizon.
+  Vec3 sun_direction() const { return sun_direction_; }
+  /// Whether the sun gives any light: some of its disc is above the horizon.
+  bool sun_visible() const { return sun_visible_; }
+  /// The disc with limb darkening, cd/m²; zero outside it.
+  Vec3 sun_radiance(Vec3 direction) const;
+  /// Uniform over the disc; pdf 0 when the sun is not visible.
+  SkySample sample_sun(Vec2 u) const;
+  float sun_pdf(Vec3 direction) const;
+  /// Of a surface at right angles to the sun, lx.
+  Vec3 sun_irradiance() const { return sun_irradiance_; }
+
+  const Haze& haze() const { return haze_; }
+  /// What the eye at `origin` sees of a surface `distance` metres away along the unit vector
+  /// `direction`, whose own radiance is `surface_radiance`.
+  Vec3 through_haze(Vec3 surface_radiance, Vec3 origin, Vec3 direction, float distance) const;
+
+ private:
+  void set_sun(const SkySettings& settings);
+  void fill_table(const SkySettings& settings);
+  void build_distribution();
+
+  Vec3 sun_direction_{0, 0, 1};
+  Vec3 sun_east_{1, 0, 0};  // with sun_north_, an orthonormal frame around the sun
+  Vec3 sun_north_{0, 1, 0};
+  Vec3 sun_centre_radiance_{0};
+  Vec3 sun_irradiance_{0};
+  Vec3 limb_exponent_{0};
+  float sun_chord_ = 0;  // 2 sin(radius / 2), the distance of unit vectors at the limb
+  float sun_pdf_ = 0;    // 1/sr
+  bool sun_visible_ = false;
+
+  Grid<Vec3> table_;                   // nodes: azimuth from east, elevation from -90°
+  std::vector<float> row_cumulative_;  // rows of cells, from the bottom
+  Grid<float> cell_cumulative_;        // cells of a row, from the east
+  std::vector<float> row_sine_;        // sine of the elevation of each row of nodes
+  Vec3 sky_irradiance_{0};
+  Haze haze_;
+};
+
+}  // namespace wold
