@@ -2,9 +2,10 @@
 // Where the sun stands, seen from a place on Earth at a moment.
 //
 // `sun_position` follows Meeus, "Astronomical Algorithms", 2nd ed. 1998: apparent longitude of the
-// sun (chapter 25, with nutation and aberration), true obliquity (22), apparent sidereal time (12),
-// then the correction for parallax (40) and for refraction (16.4, Saemundsson, scaled by pressure
-// and temperature). Within 0.01° of NREL SPA (Reda, Andreas 2004) for the years 1800 to 2200.
+// sun (chapter 25 with the larger terms of VSOP87, nutation and aberration), true obliquity (22),
+// apparent sidereal time (12), then the correction for parallax (40) and for refraction (16.4,
+// Saemundsson, scaled by pressure and temperature). Within 0.002° of NREL SPA (Reda, Andreas 2004)
+// for the years 1900 to 2100.
 //
 // `sun_position_preetham` is the short formula of Preetham, Shirley, Smits, "A practical analytic
 // model for daylight", SIGGRAPH 1999, appendix 6, within about a degree; files of other programs
