@@ -1,0 +1,166 @@
+#include "render/ground.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/hash.hpp"
+#include "noise/fractal.hpp"
+
+namespace wold {
+
+namespace {
+
+// Soil and stone: features from this size down, m; an octave of size s has height detail_ratio · s.
+constexpr float largest_detail = 6;
+constexpr float detail_ratio_soil = 0.035F;
+constexpr float detail_ratio_rock = 0.11F;
+constexpr float least_footprint = 0.004F;
+
+float smoothstep(float low, float high, float x) {
+  if (high <= low) return x < low ? 0.0F : 1.0F;
+  const float t = std::clamp((x - low) / (high - low), 0.0F, 1.0F);
+  return t * t * (3 - 2 * t);
+}
+
+float slope_degrees(Vec2 gradient) {
+  return degrees(std::atan(glm::length(gradient)));
+}
+
+Fractal texture(int octaves) {
+  Fractal f;
+  f.octaves = octaves;
+  f.hurst = 0.75F;
+  return f;
+}
+
+}  // namespace
+
+Description<GroundMaterial> describe(const GroundMaterial&) {
+  using G = GroundMaterial;
+  const Limits color{.min = 0, .max = 1};
+  const Limits height{.unit = "m", .min = -20000, .max = 20000};
+  const Limits slope{.unit = "degrees", .min = 0, .max = 90};
+  return Description<G>("ground", "Colours of the ground and where they lie.")
+      .add("soil_color1", &G::soil_color1, color, "Darker soil, linear Rec. 709 reflectance.")
+      .add("soil_color2", &G::soil_color2, color, "Lighter soil.")
+      .add("grass_color1", &G::grass_color1, color, "Darker grass and moss.")
+      .add("grass_color2", &G::grass_color2, color, "Lighter grass and moss.")
+      .add("rock_color1", &G::rock_color1, color, "Darker rock.")
+      .add("rock_color2", &G::rock_color2, color, "Lighter rock.")
+      .add("snow_color", &G::snow_color, color, "Snow.")
+      .add("grass_cover", &G::grass_cover, {.min = 0, .max = 1},
+           "Share of the soil under grass and moss.")
+      .add("patch_size", &G::patch_size, {.unit = "m", .min = 0.1, .max = 1e4},
+           "Size of the patches of grass on soil.")
+      .add("rock_feature_size", &G::rock_feature_size, {.unit = "m", .min = 0.1, .max = 1e4},
+           "Size of the patches of the two rocks.")
+      .add("rock_slope", &G::rock_slope, slope, "Slope where rock begins, and where all is rock.")
+      .add("rock_height", &G::rock_height, height,
+           "Height where rock begins, and where all is rock.")
+      .add("snow_height", &G::snow_height, height,
+           "Height where snow begins, and where all is snow.")
+      .add("snow_slope", &G::snow_slope, slope,
+           "Slope where snow begins to slide off, and where none stays.")
+      .add("detail", &G::detail, {.min = 0, .max = 5},
+           "Height of small features of soil and stone; 1 is natural, 0 smooth.");
+}
+
+Ground::Ground(Heightfield field, Heightfield surroundings, GroundMaterial material,
+               std::uint64_t seed)
+    : field_(std::move(field)),
+      surroundings_(std::move(surroundings)),
+      material_(material),
+      seed_(static_cast<std::uint32_t>(random_bits(seed, hash_text(std::string_view("ground"))))) {
+  const Heightfield& widest = surroundings_.height.empty() ? field_ : surroundings_;
+  low_ = widest.origin;
+  high_ = widest.origin + widest.size();
+  heights_ = {std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
+  for (const Heightfield* f : {&field_, &surroundings_}) {
+    for (const float h : f->height.values()) {
+      heights_.low = std::min(heights_.low, h);
+      heights_.high = std::max(heights_.high, h);
+    }
+  }
+}
+
+GroundSample Ground::base(DVec2 place) const {
+  const DVec2 low = field_.origin;
+  const DVec2 high = low + field_.size();
+  const DVec2 inside = glm::clamp(place, low, high);
+  if (inside == place || surroundings_.height.empty()) return ground_at(field_, inside);
+  // Outside: the difference at the nearest border point is carried outwards and fades. Its change
+  // along the border is small beside the slope of the surroundings and is left out of the gradient.
+  GroundSample s = ground_at(surroundings_, place);
+  const float step = ground_at(field_, inside).height - ground_at(surroundings_, inside).height;
+  const auto distance = static_cast<float>(glm::distance(inside, place));
+  const auto width = static_cast<float>(0.25 * std::max(high.x - low.x, high.y - low.y));
+  const float fade = 1 - smoothstep(0, width, distance);
+  s.height += step * fade;
+  return s;
+}
+
+GroundSample Ground::detailed(DVec2 place, float spacing) const {
+  GroundSample s = base(place);
+  const float widest = std::min(largest_detail, static_cast<float>(field_.cell) * 2);
+  if (material_.detail <= 0 || spacing > widest) return s;
+  const float rock =
+      smoothstep(material_.rock_slope.low, material_.rock_slope.high, slope_degrees(s.gradient));
+  Fractal f = texture(9);
+  f.hurst = 0.95F;
+  const Sample2 n =
+      fractal(f, place / static_cast<double>(widest), seed_ ^ 0x5bd1e995U, spacing / widest);
+  const float ratio = material_.detail * std::lerp(detail_ratio_soil, detail_ratio_rock, rock);
+  s.height += ratio * widest * n.value;
+  s.gradient += ratio * n.derivative;
+  return s;
+}
+
+GroundSurface Ground::surface(DVec2 place, float footprint) const {
+  const float width = std::max(footprint, least_footprint);
+  const GroundSample b = base(place);
+  const GroundSample s = detailed(place, width);
+  const Vec3 p(Vec2(place), s.height);
+  const GroundMaterial& m = material_;
+
+  // One noise breaks up the edges of all covers, so that they do not follow contour lines.
+  const float jitter = fractal(texture(6), place / 45.0, seed_ + 1, width / 45).value;
+  const float fine = fractal(texture(5), place / 1.7, seed_ + 2, width / 1.7F).value;
+  const float base_slope = slope_degrees(b.gradient) + 7 * jitter;
+  const float small_slope = slope_degrees(s.gradient) + 5 * fine;
+  const float height = b.height + 60 * jitter;
+
+  const float steep =
+      smoothstep(m.rock_slope.low, m.rock_slope.high, std::max(base_slope, 0.8F * small_slope));
+  const float high = smoothstep(m.rock_height.low, m.rock_height.high, height);
+  const float rock = std::max(steep, high);
+  const float snow =
+      smoothstep(m.snow_height.low, m.snow_height.high, height) *
+      (1 - smoothstep(m.snow_slope.low, m.snow_slope.high, 0.5F * (base_slope + small_slope)));
+
+  GroundSurface out;
+  out.normal = normal_of(s.gradient);
+  Vec3 color(0);
+  if (rock < 1) {
+    const TwoColors soil{m.soil_color1, m.soil_color2, 0.35F, 1.1F};
+    const TwoColors grass{m.grass_color1, m.grass_color2, 0.8F, 0.9F};
+    const float patch = fractal(texture(6), place / static_cast<double>(m.patch_size), seed_ + 3,
+                                width / m.patch_size)
+                            .value;
+    // A share c of a value spread evenly over [-0.5, 0.5] lies below c - 0.5.
+    const float threshold = 0.5F - m.grass_cover;
+    const float grassy = smoothstep(threshold - 0.12F, threshold + 0.12F, patch + 0.35F * fine);
+    color = two_colors(soil, p, width, seed_ + 4);
+    if (grassy > 0) color = glm::mix(color, two_colors(grass, p, width, seed_ + 5), grassy);
+    color *= 1 + 0.25F * jitter;
+  }
+  if (rock > 0) {
+    const TwoColors stone{m.rock_color1, m.rock_color2, m.rock_feature_size, 1.1F};
+    // Beds of rock: patches are wide and low.
+    const Vec3 layered = two_colors(stone, p, width, seed_ + 6, 0.25F) * (1 + 0.3F * fine);
+    color = glm::mix(color, layered, rock);
+  }
+  out.reflectance = glm::mix(color, m.snow_color, snow);
+  return out;
+}
+
+}  // namespace wold

@@ -1,0 +1,75 @@
+#pragma once
+// The ground as the renderer sees it: a height for every place of the plane, in any detail, and its
+// colours.
+//
+// Inside the scene's heightfield the height is its bicubic surface. Around it lies a coarser
+// heightfield, `surroundings`, lifted near the border so that both meet without a step; beyond that
+// the ground goes on at border height. Where the samples stand further apart than the features of
+// soil and stone, fBm adds them (`detail`), so that ground near the camera is not smooth.
+
+#include <cstdint>
+
+#include "base/parameters.hpp"
+#include "render/material.hpp"
+#include "terrain/heightfield.hpp"
+
+namespace wold {
+
+/// Colours of the ground, and where they lie (spec: rock over a height band, rock and snow by
+/// slope).
+struct GroundMaterial {
+  Vec3 soil_color1{0.085F, 0.062F, 0.040F};
+  Vec3 soil_color2{0.155F, 0.115F, 0.072F};
+  Vec3 grass_color1{0.052F, 0.078F, 0.022F};
+  Vec3 grass_color2{0.105F, 0.115F, 0.040F};
+  Vec3 rock_color1{0.13F, 0.125F, 0.12F};
+  Vec3 rock_color2{0.29F, 0.27F, 0.245F};
+  Vec3 snow_color{0.80F, 0.83F, 0.88F};
+  float grass_cover = 0.65F;      ///< share of the soil under grass and moss
+  float patch_size = 9;           ///< m, of grass on soil
+  float rock_feature_size = 14;   ///< m
+  Range rock_slope{33, 46};       ///< degrees: none below, all above
+  Range rock_height{3000, 4000};  ///< m: none below, all above
+  Range snow_height{6000, 7000};  ///< m: none below, all above
+  Range snow_slope{36, 52};       ///< degrees: all below, none above
+  float detail = 1;               ///< height of soil and stone features, relative to natural ones
+};
+
+Description<GroundMaterial> describe(const GroundMaterial&);
+
+/// What the path tracer needs at a point of the ground.
+struct GroundSurface {
+  Vec3 normal{0, 0, 1};  ///< unit
+  Vec3 reflectance{0};
+  float roughness = 0;  ///< of a coat; 0 for none
+};
+
+class Ground {
+ public:
+  /// `surroundings` may be empty.
+  Ground(Heightfield field, Heightfield surroundings, GroundMaterial material, std::uint64_t seed);
+
+  const Heightfield& field() const { return field_; }
+  /// Square of ground that is modelled: the surroundings where there are any.
+  DVec2 low() const { return low_; }
+  DVec2 high() const { return high_; }
+  Range height_range() const { return heights_; }
+
+  /// Height without detail, m, with gradient.
+  GroundSample base(DVec2 place) const;
+  /// Height and gradient with detail down to features of `spacing` metres.
+  GroundSample detailed(DVec2 place, float spacing) const;
+  /// Colours and normal for a footprint of `footprint` metres.
+  GroundSurface surface(DVec2 place, float footprint) const;
+
+ private:
+  Heightfield field_;
+  Heightfield surroundings_;
+  GroundMaterial material_;
+  std::uint32_t seed_;
+  DVec2 low_{0};
+  DVec2 high_{0};
+  Range heights_;
+};
+
+}  // namespace wold

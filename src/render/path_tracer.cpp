@@ -1,0 +1,190 @@
+#include "render/path_tracer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wold {
+
+namespace {
+
+// Pairs of random numbers that one bounce may draw; the camera draws the first ones.
+constexpr std::uint32_t camera_pairs = 2;
+constexpr std::uint32_t bounce_pairs = 4;
+constexpr int first_roulette_bounce = 2;
+// After a diffuse bounce texture is averaged over this share of the distance.
+constexpr float diffuse_spread = 0.15F;
+
+float power_heuristic(float a, float b) {
+  return a * a / (a * a + b * b);
+}
+
+float largest(Vec3 v) {
+  return std::max({v.x, v.y, v.z});
+}
+
+bool black(Vec3 v) {
+  return v.x <= 0 && v.y <= 0 && v.z <= 0;
+}
+
+/// How far from a surface a ray starts so as not to meet it again: rounding of world positions, and
+/// of the distance.
+float clearance(Vec3 position) {
+  const Vec3 a = glm::abs(position);
+  return 2e-4F + 4e-7F * std::max({a.x, a.y, a.z});
+}
+
+Ray leaving(const SurfacePoint& s, Vec3 direction) {
+  const float side = glm::dot(direction, s.geometric_normal) < 0 ? -1.0F : 1.0F;
+  return {s.position + side * clearance(s.position) * s.geometric_normal, direction};
+}
+
+SurfacePoint model_surface(const World& world, const Hit& hit, Vec3 view_direction,
+                           float footprint) {
+  const ModelInstance& instance = world.instances[hit.instance];
+  const Model& model = world.models[instance.model];
+  const TriangleMesh& mesh = model.mesh;
+  const UVec3 corner = mesh.triangles[hit.triangle];
+  const float w = 1 - hit.u - hit.v;
+  const auto mixed = [&](const std::vector<Vec3>& list) {
+    return w * list[corner.x] + hit.u * list[corner.y] + hit.v * list[corner.z];
+  };
+  std::size_t part = 0;
+  while (part + 1 < mesh.parts.size() && hit.triangle >= mesh.parts[part + 1].first_triangle)
+    ++part;
+  const Material& material = world.materials[model.part_materials[part]];
+
+  SurfacePoint s;
+  s.position = hit.position;
+  s.geometric_normal = glm::dot(hit.normal, view_direction) > 0 ? -hit.normal : hit.normal;
+  s.normal = s.geometric_normal;
+  if (!mesh.normals.empty()) {
+    Vec3 n = glm::normalize(instance_matrix(instance) * mixed(mesh.normals));
+    if (glm::dot(n, s.geometric_normal) < 0) n = -n;
+    if (std::isfinite(n.x + n.y + n.z)) s.normal = n;
+  }
+  // Neighbouring triangles make one leaf or needle twig; eight is near enough for their tint.
+  const SurfaceColor color =
+      surface_color(material, mixed(mesh.positions), footprint / instance.scale,
+                    instance.individual, hit.triangle / 8);
+  s.reflectance = color.reflectance;
+  s.transmittance = color.transmittance;
+  s.roughness = material.roughness;
+  return s;
+}
+
+SurfacePoint ground_surface(const World& world, const Hit& hit, Vec3 view_direction,
+                            float footprint) {
+  SurfacePoint s;
+  s.position = hit.position;
+  s.geometric_normal = hit.normal.z < 0 ? -hit.normal : hit.normal;
+  if (glm::dot(s.geometric_normal, view_direction) > 0) s.geometric_normal = -s.geometric_normal;
+  const GroundSurface ground =
+      world.ground.surface(DVec2(hit.position.x, hit.position.y), footprint);
+  s.normal = ground.normal;
+  s.reflectance = ground.reflectance;
+  s.roughness = ground.roughness;
+  return s;
+}
+
+/// A shading normal that faces away from the viewer, as happens at silhouettes, is brought to the
+/// edge of view.
+Vec3 facing(Vec3 normal, Vec3 view_direction) {
+  const float d = glm::dot(normal, view_direction);
+  constexpr float margin = 0.01F;
+  return d > -margin ? glm::normalize(normal - (d + margin) * view_direction) : normal;
+}
+
+/// Light that reaches the surface straight from sun and sky, scattered towards the viewer.
+Vec3 direct_light(const RayScene& scene, const SurfacePoint& surface, const Bsdf& bsdf, Vec2 u_sun,
+                  Vec2 u_sky, RayCount& count) {
+  const Sky& sky = scene.world().sky;
+  Vec3 light(0);
+  const auto add = [&](const SkySample& sample, bool by_bsdf_too) {
+    if (!(sample.pdf > 0)) return;
+    Vec3 value = bsdf.evaluate(sample.direction) * sample.radiance / sample.pdf;
+    if (black(value)) return;
+    if (by_bsdf_too) value *= power_heuristic(sample.pdf, bsdf.pdf(sample.direction));
+    const Ray ray = leaving(surface, sample.direction);
+    if (scene.occluded(ray, 0, std::numeric_limits<float>::infinity(), count)) return;
+    light += value;
+  };
+  add(sky.sample_sun(u_sun), false);
+  add(sky.sample_sky(u_sky), true);
+  return light;
+}
+
+}  // namespace
+
+SurfacePoint surface_at(const World& world, const Hit& hit, Vec3 view_direction, float footprint) {
+  SurfacePoint s = hit.instance == Hit::ground
+                       ? ground_surface(world, hit, view_direction, footprint)
+                       : model_surface(world, hit, view_direction, footprint);
+  s.normal = facing(s.normal, view_direction);
+  return s;
+}
+
+PathSample trace_path(const RayScene& scene, const PathSettings& settings, const Ray& camera_ray,
+                      float pixel_angle, Sampler& sampler, RayCount& count) {
+  const World& world = scene.world();
+  const Sky& sky = world.sky;
+  PathSample result;
+  Ray ray = camera_ray;
+  Vec3 throughput(1);
+  float bsdf_pdf = 0;
+  float footprint_ratio = pixel_angle;  // footprint over distance
+  float footprint = 0;
+  for (int bounce = 0;; ++bounce) {
+    const Hit hit = scene.intersect(ray, 0, bounce == 0, count);
+    if (!hit.valid()) {
+      Vec3 light = sky.radiance(ray.direction);
+      if (bounce == 0)
+        light += sky.sun_radiance(ray.direction);
+      else
+        light *= power_heuristic(bsdf_pdf, sky.sky_pdf(ray.direction));
+      result.radiance += throughput * light;
+      break;
+    }
+    // The haze adds its own light and dims what comes from behind; through_haze is linear in the
+    // surface's light.
+    if (sky.haze().enabled()) {
+      const Vec3 clear = sky.haze().transmittance(ray.origin, ray.direction, hit.distance);
+      result.radiance +=
+          throughput * sky.through_haze(Vec3(0), ray.origin, ray.direction, hit.distance);
+      throughput *= clear;
+    }
+    footprint += footprint_ratio * hit.distance;
+    const SurfacePoint surface = surface_at(world, hit, ray.direction, footprint);
+    if (bounce == 0) {
+      result.albedo = surface.reflectance + surface.transmittance;
+      result.normal = surface.normal;
+      result.depth = hit.distance;
+      result.cover = 1;
+    }
+    const Bsdf bsdf(surface.normal, -ray.direction, surface.reflectance, surface.transmittance,
+                    surface.roughness);
+    sampler.skip_to(camera_pairs + static_cast<std::uint32_t>(bounce) * bounce_pairs);
+    const Vec2 u_sun = sampler.next();
+    const Vec2 u_sky = sampler.next();
+    result.radiance += throughput * direct_light(scene, surface, bsdf, u_sun, u_sky, count);
+    if (bounce >= settings.max_bounces) break;
+
+    const Vec2 u = sampler.next();
+    const Vec2 choice = sampler.next();
+    const BsdfSample next = bsdf.sample(u, choice.x);
+    if (!(next.pdf > 0)) break;
+    throughput *= next.weight;
+    if (bounce >= first_roulette_bounce) {
+      const float survival = std::min(0.95F, largest(throughput));
+      if (choice.y >= survival) break;
+      throughput /= survival;
+    }
+    if (black(throughput)) break;
+    bsdf_pdf = next.pdf;
+    footprint_ratio = diffuse_spread;
+    ray = leaving(surface, next.direction);
+  }
+  return result;
+}
+
+}  // namespace wold
