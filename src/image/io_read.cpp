@@ -1,0 +1,137 @@
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+
+#include "base/error.hpp"
+#include "image/atomic_file.hpp"
+#include "image/color.hpp"
+#include "image/io.hpp"
+
+namespace wold {
+
+namespace {
+
+namespace oiio = OIIO;
+
+void check_readable(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || file.peek() == std::ifstream::traits_type::eof()) {
+    const std::string bytes = read_file(path);  // says what is wrong with the file, if anything
+    if (bytes.empty())
+      throw Error(ErrorKind::input, fmt::format("'{}' is not a picture: the file is empty", path));
+  }
+}
+
+std::string first_line(const std::string& text) {
+  return text.substr(0, text.find('\n'));
+}
+
+/// OpenImageIO calls every PNG sRGB; whether the file says so is in its chunks.
+bool png_has_srgb_chunk(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(8);
+  std::array<unsigned char, 8> head{};
+  while (file.read(reinterpret_cast<char*>(head.data()), 8)) {
+    const std::uint32_t length = (std::uint32_t{head[0]} << 24U) | (std::uint32_t{head[1]} << 16U) |
+                                 (std::uint32_t{head[2]} << 8U) | std::uint32_t{head[3]};
+    const std::string type(reinterpret_cast<const char*>(&head[4]), 4);
+    if (type == "sRGB") return true;
+    if (type == "IDAT") return false;
+    file.seekg(std::streamoff{length} + 4, std::ios::cur);
+  }
+  return false;
+}
+
+bool is_tagged_srgb(const std::string& path, const oiio::ImageInput& input) {
+  const oiio::ImageSpec& spec = input.spec();
+  if (std::string(input.format_name()) == "png" && png_has_srgb_chunk(path)) return true;
+  const std::string profile{spec.get_string_attribute("ICCProfile:profile_description")};
+  return profile.find("sRGB") != std::string::npos ||
+         spec.get_int_attribute("Exif:ColorSpace") == 1;
+}
+
+std::unique_ptr<oiio::ImageInput> open_picture(const std::string& path) {
+  check_readable(path);
+  oiio::ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha
+  auto input = oiio::ImageInput::open(path, &config);
+  if (!input)
+    throw Error(ErrorKind::input,
+                fmt::format("'{}' is not a picture that can be read ({}); EXR, PNG, TIFF and JPEG "
+                            "can",
+                            path, first_line(oiio::geterror())));
+  return input;
+}
+
+std::map<std::string, std::string> texts_of(const oiio::ImageSpec& spec) {
+  std::map<std::string, std::string> texts;
+  for (const auto& attribute : spec.extra_attribs)
+    if (attribute.type() == oiio::TypeString)
+      texts.emplace(attribute.name().string(), attribute.get_string());
+  return texts;
+}
+
+void linearise(Image& image) {
+  std::vector<bool> is_alpha;
+  for (const std::string& name : image.channels) is_alpha.push_back(name == "A");
+  const std::size_t channels = image.channels.size();
+  for (std::size_t k = 0; k < image.pixels.size(); ++k)
+    if (!is_alpha[k % channels]) image.pixels[k] = srgb_to_linear(image.pixels[k]);
+}
+
+}  // namespace
+
+Picture read_picture(const std::string& path, Transfer transfer) {
+  const auto input = open_picture(path);
+  const oiio::ImageSpec& spec = input->spec();
+  Picture picture;
+  picture.floating = spec.format.is_floating_point();
+  picture.bits =
+      spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(spec.format.basesize()) * 8);
+  picture.srgb_tagged = is_tagged_srgb(path, *input);
+  picture.metadata = texts_of(spec);
+  try {
+    picture.image = Image(spec.width, spec.height, spec.channelnames);
+  } catch (const Error& e) {
+    throw Error(e.kind(), fmt::format("cannot read '{}': {}", path, e.message()));
+  }
+  if (!input->read_image(0, 0, 0, spec.nchannels, oiio::TypeFloat, picture.image.pixels.data()))
+    throw Error(ErrorKind::input, fmt::format("'{}' is damaged or cut short ({})", path,
+                                              first_line(input->geterror())));
+  const bool linear = transfer == Transfer::as_stored || picture.floating ||
+                      (transfer == Transfer::if_tagged && !picture.srgb_tagged);
+  if (!linear) linearise(picture.image);
+  return picture;
+}
+
+Image read_raw16(const std::string& path, int width, int height, const Raw16Options& options) {
+  const std::string bytes = read_file(path);
+  const std::size_t samples = bytes.size() / 2;
+  if (width == 0 && height == 0)
+    width = height = static_cast<int>(std::lround(std::sqrt(static_cast<double>(samples))));
+  const auto expected = static_cast<double>(width) * height * 2;
+  if (width < 1 || height < 1 || static_cast<double>(bytes.size()) != expected)
+    throw Error(ErrorKind::input,
+                fmt::format("'{}' has {} bytes, but a 16-bit raw picture of {} x {} has {:.0f}; "
+                            "give its width and height",
+                            path, bytes.size(), width, height, expected));
+  Image image(width, height, {"Y"});
+  const std::size_t low = options.order == ByteOrder::little ? 0 : 1;
+  for (int y = 0; y < height; ++y) {
+    const int row = options.flip ? height - 1 - y : y;
+    for (int x = 0; x < width; ++x) {
+      const std::size_t k = 2 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                                 static_cast<std::size_t>(x));
+      const auto value = static_cast<unsigned char>(bytes[k + low]) +
+                         256 * static_cast<unsigned char>(bytes[k + 1 - low]);
+      image.at(x, y, 0) = static_cast<float>(value) / 65535.0F;
+    }
+  }
+  return image;
+}
+
+}  // namespace wold
