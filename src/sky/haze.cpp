@@ -27,7 +27,7 @@ float air_on_path(float h, float z, float distance, float scale_height) {
   const float start = std::exp(-std::clamp(h / scale_height, -8.0F, 80.0F));
   const float rise = z / scale_height;
   if (std::abs(rise) * distance < 1e-4F || rise == 0) return start * distance;
-  return start * -std::expm1(-std::max(rise * distance, -80.0F)) / rise;
+  return start * -std::expm1(-std::max(rise * distance, -40.0F)) / rise;
 }
 
 }  // namespace
@@ -49,9 +49,8 @@ Haze::Haze(double visibility, double scale_height) : molecules_(molecules_at_zer
 Vec3 Haze::transmittance(Vec3 origin, Vec3 direction, float distance) const {
   if (!enabled_ || !(distance > 0)) return Vec3(1);
   const float d = std::min(distance, 1e9F);
-  const Vec3 depth =
-      molecules_ * air_on_path(origin.z, direction.z, d, molecules_height) +
-      aerosol_ * air_on_path(origin.z, direction.z, d, aerosol_height_);
+  const Vec3 depth = molecules_ * air_on_path(origin.z, direction.z, d, molecules_height) +
+                     aerosol_ * air_on_path(origin.z, direction.z, d, aerosol_height_);
   return {std::exp(-depth.x), std::exp(-depth.y), std::exp(-depth.z)};
 }
 

@@ -7,8 +7,11 @@
 //
 // The sky is held as a table over azimuth and elevation (finest at the horizon) and looked up
 // bilinearly; the same table gives the density for sampling. Directions below the horizon show an
-// endless hazy plain: the horizon's colour, giving way to sunlit ground further down. Below the
-// horizon the sun and the sky fade as in twilight down to a dark blue night.
+// endless hazy plain: the horizon's colour, giving way to sunlit ground further down.
+//
+// Preetham's sky (preetham.hpp) keeps its colours and distribution but is 0.55 times as bright, as
+// measured clear skies are (IES), and dims further as the sun sinks below 10°, through twilight as
+// measured down to a dark blue night; `sky_intensity` changes it.
 
 #include <vector>
 
@@ -83,21 +86,26 @@ class Sky {
   void set_sun(const SkySettings& settings);
   void fill_table(const SkySettings& settings);
   void build_distribution();
+  DVec3 cell_mean(int i, int j) const;
 
   Vec3 sun_direction_{0, 0, 1};
-  Vec3 sun_east_{1, 0, 0};  // with sun_north_, an orthonormal frame around the sun
-  Vec3 sun_north_{0, 1, 0};
+  Vec3 sun_side_{1, 0, 0};  // with sun_up_, an orthonormal frame around the sun
+  Vec3 sun_up_{0, 1, 0};
+  double sun_elevation_ = 90;  // degrees
   Vec3 sun_centre_radiance_{0};
   Vec3 sun_irradiance_{0};
   Vec3 limb_exponent_{0};
-  float sun_chord_ = 0;  // 2 sin(radius / 2), the distance of unit vectors at the limb
+  float sun_chord_ = 0;  // 2 sin(radius / 2): distance between unit vectors to centre and limb
   float sun_pdf_ = 0;    // 1/sr
   bool sun_visible_ = false;
 
-  Grid<Vec3> table_;                   // nodes: azimuth from east, elevation from -90°
-  std::vector<float> row_cumulative_;  // rows of cells, from the bottom
-  Grid<float> cell_cumulative_;        // cells of a row, from the east
-  std::vector<float> row_sine_;        // sine of the elevation of each row of nodes
+  // Nodes in columns by azimuth and rows by elevation; a cell lies between four nodes.
+  Grid<Vec3> nodes_;                    // cd/m²
+  std::vector<float> column_azimuth_;   // radians from east to north
+  std::vector<float> row_sine_;         // of the elevation of each row of nodes
+  std::vector<float> rows_cumulative_;  // probability of the rows of cells up to and with this
+  Grid<float> cells_cumulative_;        // the same of the cells of one row
+  Grid<float> cell_pdf_;                // 1/sr
   Vec3 sky_irradiance_{0};
   Haze haze_;
 };
