@@ -255,7 +255,7 @@ class Description {
 
   /// An enumeration whose values 0, 1, 2, … have the given names.
   template <class Enum>
-  Description& choice(const char* name, Enum T::*member, std::vector<std::string> names,
+  Description& choice(const char* name, Enum T::*member, const std::vector<std::string>& names,
                       const char* text) {
     Parameter p;
     p.name = name;
