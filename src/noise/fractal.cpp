@@ -40,11 +40,17 @@ Sample clamped(const Sample& a, float low, float high) {
   return a;
 }
 
-DVec2 next_octave(DVec2 p, double lacunarity) {
-  return p * lacunarity + DVec2(octave_shift.x, octave_shift.y);
+DVec2 place(const Octave& octave, DVec2 p) {
+  return octave.matrix2 * p + octave.shift2;
 }
-DVec3 next_octave(DVec3 p, double lacunarity) {
-  return p * lacunarity + octave_shift;
+DVec3 place(const Octave& octave, DVec3 p) {
+  return octave.matrix3 * p + octave.shift3;
+}
+Mat2 matrix(const Octave& octave, DVec2 /*p*/) {
+  return Mat2(octave.matrix2);
+}
+Mat3 matrix(const Octave& octave, DVec3 /*p*/) {
+  return Mat3(octave.matrix3);
 }
 
 // The sums of each kind. `add` takes the octaves in order: n is the noise with its derivative by
@@ -107,59 +113,37 @@ Sample add_octaves(const FractalSampler& sampler, Position p, float spacing) {
     const Octave& octave = sampler.octave(i);
     const float weight = octave_weight(spacing * octave.frequency);
     if (weight <= 0) break;
-    Sample n = noise_cell::noise<basis>(p, octave.key);
-    n.derivative *= octave.frequency;
+    Sample n = noise_cell::noise<basis>(place(octave, p), octave.key);
+    n.derivative = n.derivative * matrix(octave, p);  // the transposed matrix times the derivative
     sum.add(n, octave, weight);
-    p = next_octave(p, static_cast<double>(f.lacunarity));
   }
   return sum.total;
-}
-
-template <class Position>
-constexpr std::size_t dimension = 2;
-template <>
-constexpr std::size_t dimension<DVec3> = 3;
-
-template <class Position>
-auto coordinates(const Position& p) {
-  std::array<double, dimension<Position>> list{};
-  for (std::size_t a = 0; a < list.size(); ++a) list[a] = p[static_cast<int>(a)];
-  return list;
 }
 
 // With d = Σ b_i ∇n_i, D its derivative (symmetric) and t = a n / q, q = 1 + c |d|²:
 // ∇t = (a ∇n - t 2c D d) / q.
 template <NoiseBasis basis, class Sample, class Position>
 Sample add_eroded_octaves(const FractalSampler& sampler, Position p, float spacing) {
-  constexpr std::size_t axes = dimension<Position>;
   const Fractal& f = sampler.parameters();
-  std::array<float, axes> d{};
-  std::array<std::array<float, axes>, axes> second{};
+  using Vector = decltype(Sample::derivative);
+  using Matrix = decltype(matrix(sampler.octave(0), p));
+  Vector d{0};
+  Matrix second{0};
   Sample total{};
   for (int i = 0; i < f.octaves; ++i) {
     const Octave& octave = sampler.octave(i);
     const float weight = octave_weight(spacing * octave.frequency);
     if (weight <= 0) break;
-    const auto n = noise_cell::curvature<basis, axes>(coordinates(p), octave.key);
+    const auto n = noise_cell::curvature<basis, Vector, Matrix>(place(octave, p), octave.key);
+    const Matrix m = matrix(octave, p);
     const float a = octave.amplitude * weight;
-    const float slope_scale = a * octave.frequency;
-    float square = 0;
-    for (std::size_t x = 0; x < axes; ++x) {
-      d[x] += slope_scale * n.slope[x];
-      square += d[x] * d[x];
-      for (std::size_t y = 0; y < axes; ++y)
-        second[x][y] += slope_scale * octave.frequency * n.second[x][y];
-    }
-    const float damped = 1.0F / (1.0F + f.damping * square);
+    const Vector slope = a * (n.slope * m);
+    d += slope;
+    second += a * (glm::transpose(m) * n.second * m);
+    const float damped = 1.0F / (1.0F + f.damping * glm::dot(d, d));
     const float term = a * n.value * damped;
     total.value += term;
-    for (std::size_t x = 0; x < axes; ++x) {
-      float turn = 0;
-      for (std::size_t y = 0; y < axes; ++y) turn += second[x][y] * d[y];
-      total.derivative[static_cast<int>(x)] +=
-          (slope_scale * n.slope[x] - 2.0F * f.damping * term * turn) * damped;
-    }
-    p = next_octave(p, static_cast<double>(f.lacunarity));
+    total.derivative += (slope - 2.0F * f.damping * term * (second * d)) * damped;
   }
   return total;
 }
@@ -203,16 +187,25 @@ void check(const Fractal& f) {
 
 FractalSampler::FractalSampler(const Fractal& f, std::uint32_t seed) : fractal_(f) {
   check(f);
+  const auto lacunarity = static_cast<double>(f.lacunarity);
+  const double amplitude_ratio = std::pow(lacunarity, -static_cast<double>(f.hurst));
   double frequency = 1;
   double amplitude = 1;
-  const double amplitude_ratio =
-      std::pow(static_cast<double>(f.lacunarity), -static_cast<double>(f.hurst));
+  Octave octave{.matrix2 = octave_turn2,
+                .shift2 = DVec2(octave_shift),
+                .matrix3 = octave_turn3,
+                .shift3 = octave_shift};
   for (int i = 0; i < f.octaves; ++i) {
-    octaves_[static_cast<std::size_t>(i)] = {
-        lattice_key(seed + static_cast<std::uint32_t>(i) * 0x9e3779b9U),
-        static_cast<float>(amplitude), static_cast<float>(frequency)};
-    frequency *= static_cast<double>(f.lacunarity);
+    octave.key = lattice_key(seed + static_cast<std::uint32_t>(i) * 0x9e3779b9U);
+    octave.amplitude = static_cast<float>(amplitude);
+    octave.frequency = static_cast<float>(frequency);
+    octaves_[static_cast<std::size_t>(i)] = octave;
+    frequency *= lacunarity;
     amplitude *= amplitude_ratio;
+    octave.matrix2 = lacunarity * (octave_turn2 * octave.matrix2);
+    octave.shift2 = lacunarity * (octave_turn2 * octave.shift2) + DVec2(octave_shift);
+    octave.matrix3 = lacunarity * (octave_turn3 * octave.matrix3);
+    octave.shift3 = lacunarity * (octave_turn3 * octave.shift3) + octave_shift;
   }
 }
 

@@ -2,8 +2,9 @@
 // Fractals: sums of noise over octaves. With f_i = lacunarity^i and a_i = f_i^-H (Ebert et al.,
 // Texturing and Modeling, 3rd ed., chapter 16); the formula of each kind stands at its enumerator.
 //
-// Octave i looks at p_i, where p_0 = p and p_{i+1} = lacunarity · p_i + octave_shift, and has a
-// seed of its own: so the lattices of two octaves never coincide, and no point of the plane (the
+// Octave i looks at p_i, where p_0 = R p + d and p_{i+1} = lacunarity · R p_i + d, with a fixed
+// rotation R and shift d (`octave_turn`, `octave_shift`), and has a seed of its own: so the
+// lattices of two octaves never coincide, none lies along the axes, and no point of the plane (the
 // origin, say) is a zero of all. The text writes n(f_i p) for it.
 //
 // Octaves finer than the sample spacing are faded out: octave i has weight 1 while its feature
@@ -47,8 +48,12 @@ struct Fractal {
   static constexpr int max_octaves = 32;
 };
 
-/// By which each octave's place is moved against the one before, in its own lattice units: chosen
-/// so that the lattices of octaves up to seven apart keep clear of each other at lacunarity 2.
+/// By how much each octave is turned against the one before, in the plane (36.87°) and in space
+/// (86.2° about (1, 2, 3)): angles whose multiples don't return to the axes.
+inline const DMat2 octave_turn2{0.8, 0.6, -0.6, 0.8};  // by columns
+inline const DMat3 octave_turn3 = DMat3{4, 28, -10, -20, 10, 20, 22, 4, 20} / 30.0;
+
+/// By how much each octave is moved against the one before, in its own lattice units.
 inline constexpr DVec3 octave_shift{0.6180339887, 0.7548776662, 0.4142135624};
 
 /// The fractal and its derivative at p (lattice units of the first octave). `spacing` is the
@@ -65,6 +70,10 @@ class FractalSampler {
     std::uint32_t key = 0;  ///< lattice_key of its seed
     float amplitude = 0;
     float frequency = 0;
+    DMat2 matrix2{0};  ///< p_i = matrix · p + shift, in the plane
+    DVec2 shift2{0};
+    DMat3 matrix3{0};  ///< and in space
+    DVec3 shift3{0};
   };
 
   /// Throws Error(input) if a parameter is out of range.

@@ -16,11 +16,11 @@
 
 namespace wold::noise_cell {
 
-template <std::size_t dimension>
+template <class Vector, class Matrix>
 struct Curvature {
   float value = 0;
-  std::array<float, dimension> slope{};
-  std::array<std::array<float, dimension>, dimension> second{};
+  Vector slope{0};
+  Matrix second{0};
 };
 
 /// What one corner adds: its fades in each axis with two derivatives, its value and gradient.
@@ -43,31 +43,36 @@ struct CornerTerm {
     return product;
   }
 
-  void add_to(Curvature<dimension>& sum) const {
+  template <class Vector, class Matrix>
+  void add_to(Curvature<Vector, Matrix>& sum) const {
     sum.value += weight() * value;
     for (std::size_t a = 0; a < dimension; ++a) {
-      sum.slope[a] += weight(a, 1) * value + weight() * gradient[a];
-      sum.second[a][a] += weight(a, 2) * value + 2.0F * weight(a, 1) * gradient[a];
+      const auto ia = static_cast<int>(a);
+      sum.slope[ia] += weight(a, 1) * value + weight() * gradient[a];
+      sum.second[ia][ia] += weight(a, 2) * value + 2.0F * weight(a, 1) * gradient[a];
       for (std::size_t b = a + 1; b < dimension; ++b) {
+        const auto ib = static_cast<int>(b);
         const float mixed =
             weight(a, 1, b, 1) * value + weight(a, 1) * gradient[b] + weight(b, 1) * gradient[a];
-        sum.second[a][b] += mixed;
-        sum.second[b][a] += mixed;
+        sum.second[ia][ib] += mixed;
+        sum.second[ib][ia] += mixed;
       }
     }
   }
 };
 
-template <NoiseBasis basis, std::size_t dimension>
-Curvature<dimension> curvature(const std::array<double, dimension>& p, std::uint32_t key) {
+/// `Position` is DVec2 or DVec3, `Vector` and `Matrix` those of its derivatives.
+template <NoiseBasis basis, class Vector, class Matrix, class Position>
+Curvature<Vector, Matrix> curvature(const Position& p, std::uint32_t key) {
+  constexpr auto dimension = static_cast<std::size_t>(Position::length());
   std::array<Split, dimension> x;
   std::array<std::array<float, 3>, dimension> rise;
   for (std::size_t a = 0; a < dimension; ++a) {
-    x[a] = split(p[a]);
+    x[a] = split(p[static_cast<int>(a)]);
     const float t = x[a].fraction;
     rise[a] = {fade(t), fade_slope(t), fade_curvature(t)};
   }
-  Curvature<dimension> sum;
+  Curvature<Vector, Matrix> sum;
   for (std::uint32_t corner = 0; corner < (1U << dimension); ++corner) {
     CornerTerm<dimension> term;
     std::array<float, dimension> offset{};

@@ -28,27 +28,38 @@ DVec3 random_point3(int i, double reach) {
 std::uint32_t octave_seed(std::uint32_t seed, unsigned i) {
   return seed + i * 0x9e3779b9U;
 }
+DVec2 first_octave(DVec2 p) {
+  return octave_turn2 * p + DVec2(octave_shift);
+}
 DVec2 second_octave(DVec2 p, double lacunarity) {
-  return p * lacunarity + DVec2(octave_shift.x, octave_shift.y);
+  return lacunarity * (octave_turn2 * first_octave(p)) + DVec2(octave_shift);
+}
+// A derivative by the place of an octave as one by p.
+Vec2 turned_back(Vec2 derivative, int octave) {
+  for (int i = 0; i <= octave; ++i) derivative = derivative * Mat2(octave_turn2);
+  return derivative;
 }
 
 TEST(Fractal, FbmIsTheWeightedSumOfItsOctaves) {
   const Fractal f{.octaves = 2, .lacunarity = 2.5F, .hurst = 0.7F};
   for (int i = 0; i < 200; ++i) {
     const DVec2 p = random_point2(i, 50);
-    const Sample2 a = gradient_noise(p, octave_seed(5, 0));
+    const Sample2 a = gradient_noise(first_octave(p), octave_seed(5, 0));
     const Sample2 b = gradient_noise(second_octave(p, 2.5), octave_seed(5, 1));
     const Sample2 sum = fractal(f, p, 5);
     const float amplitude = std::pow(2.5F, -0.7F);
     EXPECT_NEAR(sum.value, a.value + amplitude * b.value, 1e-6);
-    EXPECT_NEAR(sum.derivative.x, a.derivative.x + amplitude * 2.5F * b.derivative.x, 1e-5);
+    const Vec2 slope =
+        turned_back(a.derivative, 0) + amplitude * 2.5F * turned_back(b.derivative, 1);
+    EXPECT_NEAR(sum.derivative.x, slope.x, 1e-5);
+    EXPECT_NEAR(sum.derivative.y, slope.y, 1e-5);
   }
 }
 
 TEST(Fractal, FormulasOfTheKinds) {
   for (int i = 0; i < 200; ++i) {
     const DVec2 p = random_point2(i, 50);
-    const float n0 = gradient_noise(p, octave_seed(5, 0)).value;
+    const float n0 = gradient_noise(first_octave(p), octave_seed(5, 0)).value;
     const float n1 = gradient_noise(second_octave(p, 2), octave_seed(5, 1)).value;
     const float a1 = 0.5F;
 
@@ -70,9 +81,10 @@ TEST(Fractal, FormulasOfTheKinds) {
         fractal({.kind = FractalKind::ridged, .octaves = 1, .smooth_ridges = k}, p, 5).value, m * m,
         1e-6);
 
-    const Vec2 d0 = gradient_noise(p, octave_seed(5, 0)).derivative;
+    const Vec2 d0 = turned_back(gradient_noise(first_octave(p), octave_seed(5, 0)).derivative, 0);
     const Vec2 d1 =
-        d0 + gradient_noise(second_octave(p, 2), octave_seed(5, 1)).derivative;  // a_1 f_1 = 1
+        d0 + turned_back(gradient_noise(second_octave(p, 2), octave_seed(5, 1)).derivative,
+                         1);  // a_1 f_1 = 1
     EXPECT_NEAR(fractal({.kind = FractalKind::eroded, .octaves = 2, .damping = 3}, p, 5).value,
                 n0 / (1 + 3 * glm::dot(d0, d0)) + a1 * n1 / (1 + 3 * glm::dot(d1, d1)), 2e-6);
   }
@@ -166,6 +178,20 @@ TEST(Fractal, SamplerEqualsTheSingleCall) {
 TEST(Fractal, OriginIsNoZeroOfAllOctaves) {
   EXPECT_NE(fractal({.octaves = 2}, DVec2(0, 0), 1).value, 0);
   EXPECT_NE(fractal({.octaves = 2}, DVec3(0, 0, 0), 1).value, 0);
+}
+
+TEST(Fractal, OctavesAreTurnedNotStretched) {
+  EXPECT_NEAR(glm::determinant(octave_turn2), 1, 1e-15);
+  EXPECT_NEAR(glm::determinant(octave_turn3), 1, 1e-15);
+  const DMat3 identity = octave_turn3 * glm::transpose(octave_turn3);
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) EXPECT_NEAR(identity[a][b], a == b ? 1 : 0, 1e-15);
+  // No octave's lattice lies along an axis or along the octave before.
+  DMat2 turn = octave_turn2;
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_GT(std::min(std::abs(turn[0][0]), std::abs(turn[0][1])), 0.05) << i;
+    turn = octave_turn2 * turn;
+  }
 }
 
 TEST(Fractal, SaysWhatIsWrong) {
