@@ -54,7 +54,8 @@ SkyColour PreethamSky::colour(double cos_theta, double gamma) const {
 DVec3 PreethamSky::radiance(double cos_theta, double gamma) const {
   const SkyColour c = colour(cos_theta, gamma);
   const double x = std::clamp(c.x, 0.05, 0.7);
-  const double y = std::clamp(c.y, 0.05, 0.8);
+  const double daylight = -3 * x * x + 2.87 * x - 0.275;
+  const double y = std::clamp(std::max(c.y, daylight), 0.05, 0.8);
   const double luminance_cd = 1000 * std::max(c.luminance, 0.0);
   return in_gamut(rec709_from_xyz(xyz_from_chromaticity(x, y, luminance_cd)));
 }

@@ -32,7 +32,9 @@ class PreethamSky {
   SkyColour zenith() const { return zenith_; }
   /// From the angle to the zenith (its cosine, taken as at least 0) and to the sun (radians).
   SkyColour colour(double cos_theta, double gamma) const;
-  /// The same as linear Rec. 709, cd/m², never negative.
+  /// The same as linear Rec. 709, cd/m², never negative. Near the horizon the fit turns mauve:
+  /// chromaticities below the locus of daylight, y = -3 x² + 2.87 x - 0.275 (Judd, MacAdam,
+  /// Wyszecki 1964), are lifted to it.
   DVec3 radiance(double cos_theta, double gamma) const;
 
  private:

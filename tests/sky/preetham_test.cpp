@@ -42,6 +42,14 @@ TEST(Preetham, BlueOverheadPalerAtTheHorizonBrighterAtTheSun) {
   EXPECT_GT(luminance(sky.radiance(0.6, 0.02)), 2 * luminance(sky.radiance(0.6, 1.5)));
 }
 
+TEST(Preetham, HorizonIsWhitishNotMauve) {
+  for (const double turbidity : {2.0, 2.5, 3.0})
+    for (const double gamma : {60.0, 90.0, 140.0}) {
+      const DVec3 c = PreethamSky(turbidity, radians(50.0)).radiance(0.02, radians(gamma));
+      EXPECT_GT(2 * c.y, 0.98 * (c.x + c.z)) << turbidity << " " << gamma;
+    }
+}
+
 TEST(Preetham, NeverNegativeNorInfinite) {
   for (double turbidity = 1.9; turbidity <= 10; turbidity += 0.27)
     for (double sun = 0; sun <= 120; sun += 3)
