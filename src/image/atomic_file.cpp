@@ -21,18 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string reason(int error) {
-  switch (error) {
-    case ENOSPC: return "the disk is full";
-    case EDQUOT: return "the disk quota is used up";
-    case EROFS: return "the disk is read-only";
-    case EFBIG: return "the file would be larger than allowed";
-    case EACCES:
-    case EPERM: return "permission denied";
-    default: return std::generic_category().message(error);
-  }
-}
-
 Error cannot_write(const std::string& path, const std::string& why) {
   return {ErrorKind::io, fmt::format("cannot write '{}': {}", path, why)};
 }
@@ -83,7 +71,7 @@ class Temporary {
     }
     const int error = errno;
     name_.clear();
-    throw cannot_write(path, reason(error));
+    throw cannot_write(path, io_reason(error));
   }
   Temporary(const Temporary&) = delete;
   Temporary& operator=(const Temporary&) = delete;
@@ -97,7 +85,7 @@ class Temporary {
     struct stat old {};
     if (::stat(target_.c_str(), &old) == 0) ::chmod(name_.c_str(), old.st_mode & 07777U);
     flush();
-    if (::rename(name_.c_str(), target_.c_str()) != 0) throw cannot_write(path_, reason(errno));
+    if (::rename(name_.c_str(), target_.c_str()) != 0) throw cannot_write(path_, io_reason(errno));
     name_.clear();
     const Descriptor folder(::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
     if (folder.valid()) ::fsync(folder.number());  // not every file system can: no error
@@ -107,7 +95,7 @@ class Temporary {
   void flush() {
     Descriptor file(::open(name_.c_str(), O_RDONLY | O_CLOEXEC));
     const bool flushed = file.valid() && (::fsync(file.number()) == 0 || errno == EINVAL);
-    if (!flushed || !file.close()) throw cannot_write(path_, reason(errno));
+    if (!flushed || !file.close()) throw cannot_write(path_, io_reason(errno));
   }
 
   std::string path_;  // as the caller wrote it, for messages
@@ -117,17 +105,29 @@ class Temporary {
 
 void write_all(const std::string& path, const std::string& temporary, std::string_view bytes) {
   Descriptor file(::open(temporary.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC));
-  if (!file.valid()) throw cannot_write(path, reason(errno));
+  if (!file.valid()) throw cannot_write(path, io_reason(errno));
   while (!bytes.empty()) {
     const ssize_t written = ::write(file.number(), bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) throw cannot_write(path, reason(errno));
+    if (written < 0) throw cannot_write(path, io_reason(errno));
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
-  if (!file.close()) throw cannot_write(path, reason(errno));
+  if (!file.close()) throw cannot_write(path, io_reason(errno));
 }
 
 }  // namespace
+
+std::string io_reason(int error) {
+  switch (error) {
+    case ENOSPC: return "the disk is full";
+    case EDQUOT: return "the disk quota is used up";
+    case EROFS: return "the disk is read-only";
+    case EFBIG: return "the file would be larger than allowed";
+    case EACCES:
+    case EPERM: return "permission denied";
+    default: return std::generic_category().message(error);
+  }
+}
 
 void write_atomically(const std::string& path,
                       const std::function<void(const std::string& temporary)>& write) {
@@ -147,7 +147,7 @@ std::string read_file(const std::string& path) {
     throw Error(ErrorKind::io, fmt::format("cannot read '{}': it is a folder, not a file", path));
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file.valid()) {
-    const std::string why = errno == ENOENT ? "there is no such file" : reason(errno);
+    const std::string why = errno == ENOENT ? "there is no such file" : io_reason(errno);
     throw Error(ErrorKind::io, fmt::format("cannot read '{}': {}", path, why));
   }
   std::string bytes;
@@ -159,7 +159,7 @@ std::string read_file(const std::string& path) {
     if (count == 0) return bytes;
     if (count < 0 && errno == EINTR) continue;
     if (count < 0)
-      throw Error(ErrorKind::io, fmt::format("cannot read '{}': {}", path, reason(errno)));
+      throw Error(ErrorKind::io, fmt::format("cannot read '{}': {}", path, io_reason(errno)));
     bytes.append(block.data(), static_cast<std::size_t>(count));
   }
 }
@@ -195,7 +195,7 @@ void check_writable(const std::string& path, std::span<const std::string> extens
     throw cannot_write(path, "it is not a regular file");
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     throw cannot_write(path, fmt::format("no new file may be made in the folder '{}' ({})",
-                                         folder.string(), reason(errno)));
+                                         folder.string(), io_reason(errno)));
 }
 
 }  // namespace wold

@@ -27,6 +27,9 @@ std::string read_file(const std::string& path);
 /// not empty and has not the extension of `path` (".png"; capitals do not matter).
 void check_writable(const std::string& path, std::span<const std::string> extensions = {});
 
+/// "the disk is full": what a system error number means, for messages.
+std::string io_reason(int error);
+
 /// The extension with its dot, in small letters: ".png"; empty if there is none.
 std::string extension_of(const std::string& path);
 

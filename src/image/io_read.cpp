@@ -30,8 +30,15 @@ std::string first_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
-/// OpenImageIO calls every PNG sRGB; whether the file says so is in its chunks.
-bool png_has_srgb_chunk(const std::string& path) {
+/// What the chunks of a PNG tell. OpenImageIO calls every PNG sRGB, and libpng prints when one is
+/// cut short.
+struct PngChunks {
+  bool srgb = false;
+  bool complete = false;
+};
+
+PngChunks png_chunks(const std::string& path) {
+  PngChunks found;
   std::ifstream file(path, std::ios::binary);
   file.seekg(8);
   std::array<unsigned char, 8> head{};
@@ -39,16 +46,19 @@ bool png_has_srgb_chunk(const std::string& path) {
     const std::uint32_t length = (std::uint32_t{head[0]} << 24U) | (std::uint32_t{head[1]} << 16U) |
                                  (std::uint32_t{head[2]} << 8U) | std::uint32_t{head[3]};
     const std::string type(reinterpret_cast<const char*>(&head[4]), 4);
-    if (type == "sRGB") return true;
-    if (type == "IDAT") return false;
+    if (type == "sRGB") found.srgb = true;
+    if (type == "IEND") found.complete = true;
     file.seekg(std::streamoff{length} + 4, std::ios::cur);
   }
-  return false;
+  return found;
 }
 
-bool is_tagged_srgb(const std::string& path, const oiio::ImageInput& input) {
-  const oiio::ImageSpec& spec = input.spec();
-  if (std::string(input.format_name()) == "png" && png_has_srgb_chunk(path)) return true;
+Error damaged(const std::string& path, const std::string& why) {
+  return {ErrorKind::input,
+          fmt::format("'{}' is damaged or cut short ({})", path, first_line(why))};
+}
+
+bool is_tagged_srgb(const oiio::ImageSpec& spec) {
   const std::string profile{spec.get_string_attribute("ICCProfile:profile_description")};
   return profile.find("sRGB") != std::string::npos ||
          spec.get_int_attribute("Exif:ColorSpace") == 1;
@@ -92,16 +102,22 @@ Picture read_picture(const std::string& path, Transfer transfer) {
   picture.floating = spec.format.is_floating_point();
   picture.bits =
       spec.get_int_attribute("oiio:BitsPerSample", static_cast<int>(spec.format.basesize()) * 8);
-  picture.srgb_tagged = is_tagged_srgb(path, *input);
+  picture.srgb_tagged = is_tagged_srgb(spec);
+  if (std::string(input->format_name()) == "png") {
+    const PngChunks chunks = png_chunks(path);
+    if (!chunks.complete) throw damaged(path, "it has no end");
+    picture.srgb_tagged = picture.srgb_tagged || chunks.srgb;
+  }
   picture.metadata = texts_of(spec);
   try {
     picture.image = Image(spec.width, spec.height, spec.channelnames);
   } catch (const Error& e) {
     throw Error(e.kind(), fmt::format("cannot read '{}': {}", path, e.message()));
   }
-  if (!input->read_image(0, 0, 0, spec.nchannels, oiio::TypeFloat, picture.image.pixels.data()))
-    throw Error(ErrorKind::input, fmt::format("'{}' is damaged or cut short ({})", path,
-                                              first_line(input->geterror())));
+  const bool read =
+      input->read_image(0, 0, 0, spec.nchannels, oiio::TypeFloat, picture.image.pixels.data());
+  const std::string why = input->geterror();  // TIFF says it only here
+  if (!read || !why.empty()) throw damaged(path, why);
   const bool linear = transfer == Transfer::as_stored || picture.floating ||
                       (transfer == Transfer::if_tagged && !picture.srgb_tagged);
   if (!linear) linearise(picture.image);

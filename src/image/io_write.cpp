@@ -1,10 +1,12 @@
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <cstdio>
 
 #include "base/error.hpp"
 #include "base/hash.hpp"
@@ -36,16 +38,42 @@ oiio::ImageSpec spec_of(const Image& image, oiio::TypeDesc type, const Metadata&
   return spec;
 }
 
+/// A file that remembers the first write that failed: not every writer of the library tells.
+class CheckedFile : public oiio::Filesystem::IOFile {
+ public:
+  explicit CheckedFile(const std::string& path) : IOFile(path, Write) {}
+
+  std::size_t write(const void* bytes, std::size_t size) override {
+    return checked(IOFile::write(bytes, size), size);
+  }
+  std::size_t pwrite(const void* bytes, std::size_t size, std::int64_t offset) override {
+    return checked(IOFile::pwrite(bytes, size, offset), size);
+  }
+  /// The error number of the first failure, after handing everything to the system; 0 for none.
+  int finish() {
+    if (m_file != nullptr && std::fflush(m_file) != 0 && error_ == 0) error_ = errno;
+    return error_;
+  }
+
+ private:
+  std::size_t checked(std::size_t written, std::size_t size) {
+    if (written < size && error_ == 0) error_ = errno != 0 ? errno : EIO;
+    return written;
+  }
+  int error_ = 0;
+};
+
 void write_with(const std::string& path, const oiio::ImageSpec& spec, oiio::TypeDesc type,
                 const void* pixels) {
   write_atomically(path, [&](const std::string& temporary) {
-    const auto output = oiio::ImageOutput::create(temporary);
+    CheckedFile file(temporary);
+    const auto output = oiio::ImageOutput::create(temporary, &file);
     if (!output) throw cannot_write(path, oiio::geterror());
-    if (!output->open(temporary, spec)) throw cannot_write(path, output->geterror());
-    const bool written = output->write_image(type, pixels);
-    const std::string why = output->geterror();
-    if (!output->close() || !written)
-      throw cannot_write(path, why.empty() ? output->geterror() : why);
+    const bool written = output->open(temporary, spec) && output->write_image(type, pixels);
+    const bool closed = output->close();
+    if (const int error = file.finish(); error != 0) throw cannot_write(path, io_reason(error));
+    // A text alone is no failure: TIFF leaves one about Exif data that it has not.
+    if (!written || !closed) throw cannot_write(path, output->geterror());
   });
 }
 
