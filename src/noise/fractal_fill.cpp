@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "base/parallel.hpp"
 #include "noise/fractal.hpp"
 #include "noise/lattice.hpp"
@@ -25,18 +27,9 @@ void fill_rows(GridView<float> out, DVec2 origin, double step, const char* stage
 void fill_fractal(GridView<float> out, const Fractal& f, DVec2 origin, double step,
                   std::uint32_t seed, Progress& progress) {
   const FractalSampler sampler(f, seed);
-  const auto spacing = static_cast<float>(step);
+  const auto spacing = static_cast<float>(std::abs(step));
   fill_rows(out, origin, step, "fractal", progress,
             [&](DVec2 p) { return sampler(p, spacing).value; });
-}
-
-void fill_noise(GridView<float> out, NoiseBasis basis, DVec2 origin, double step,
-                std::uint32_t seed, Progress& progress) {
-  const std::uint32_t key = lattice_key(seed);
-  fill_rows(out, origin, step, "noise", progress, [&](DVec2 p) {
-    return basis == NoiseBasis::gradient ? noise_cell::gradient_noise(p, key).value
-                                         : noise_cell::value_noise(p, key).value;
-  });
 }
 
 }  // namespace wold
