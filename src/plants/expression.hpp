@@ -70,7 +70,8 @@ class Expression {
   };
   struct Instruction {
     Operation operation = Operation::number;
-    std::uint32_t index = 0;  ///< of a constant or argument; the place of a random number
+    std::uint8_t operands = 0;  ///< values taken from the stack
+    std::uint32_t index = 0;    ///< of a constant or argument; the place of a random number
     double number = 0;
   };
   struct Function {
@@ -80,10 +81,12 @@ class Expression {
   };
   /// All functions by name.
   static std::span<const Function> functions();
+  /// How many values an operation takes from the stack.
+  static int operands(Operation operation);
   static constexpr int max_stack = 64;
 
   Expression() = default;
-  explicit Expression(double number) : code_{{Operation::number, 0, number}} {}
+  explicit Expression(double number) : code_{{Operation::number, 0, 0, number}} {}
   /// `code` must be a well-formed postfix expression of at most `max_stack` depth.
   explicit Expression(std::vector<Instruction> code) : code_(std::move(code)) {}
 

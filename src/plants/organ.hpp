@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/mesh.hpp"
+#include "base/parameters.hpp"
 
 namespace wold {
 
@@ -30,7 +31,9 @@ struct Organ {
   float needle_angle = 50;     ///< degrees between needle and shoot
 };
 
-/// The mesh of an organ of size 1 at the origin: heading +X, left +Y, up +Z. One part.
+Description<Organ> describe(const Organ&);
+
+/// The mesh of an organ at the origin: heading +X, left +Y, up +Z. One part.
 TriangleMesh organ_mesh(const Organ& organ);
 
 }  // namespace wold

@@ -52,7 +52,7 @@ struct GrowSettings {
   float height = 0;    ///< m; 0: the file's own
   int iterations = 0;  ///< 0: the file's own
   float detail = 1;    ///< below 1: fewer sides, segments and (larger) organs; above 1: rounder
-  std::int64_t max_modules = 8'000'000;  ///< a word longer than this is refused
+  int max_modules = 8'000'000;  ///< a word longer than this is refused
 
   friend bool operator==(const GrowSettings&, const GrowSettings&) = default;
 };

@@ -2,7 +2,7 @@
 // The turtle: reads a word and draws branches, organs and polygons.
 //
 // State: position, heading H, left L, up U (a right-handed frame, H × L = U), radius, colour. It
-// starts at the origin, H = +Z, L = -X… so that U = -Y, as a stem does.
+// starts at the origin with H = +Z, L = -X, U = -Y: a stem whose plane of `+ -` faces south.
 //
 //   F(l)  forward by l, drawing      f(l)  forward without drawing     G(l)  as F, no vertex
 //   +(a) -(a)  turn left, right about U          &(a) ^(a)  pitch down, up about L
@@ -19,6 +19,7 @@
 
 #include <vector>
 
+#include "base/parameters.hpp"
 #include "base/vec.hpp"
 #include "plants/lsystem.hpp"
 
@@ -33,6 +34,8 @@ struct TurtleSettings {
   float bending = 0;           ///< e at the start
   bool tropism_per_metre = false;
 };
+
+Description<TurtleSettings> describe(const TurtleSettings&);
 
 /// What the turtle drew, in its own units.
 struct Skeleton {
@@ -49,7 +52,6 @@ struct Skeleton {
   };
   struct OrganPlace {
     char name = 0;
-    int axis = -1;
     Vec3 position{0};
     Vec3 heading{0};
     Vec3 up{0};
