@@ -27,6 +27,9 @@ struct GroundSample {
 /// Bicubic (Catmull-Rom): continuous height and gradient.
 GroundSample ground_at(const Heightfield& field, DVec2 place);
 
+/// Bilinear: what a grid of flat quads would have, faster; outside, of the nearest place.
+float height_at(const Heightfield& field, DVec2 place);
+
 /// Upward unit normal from a gradient.
 Vec3 normal_of(Vec2 gradient);
 

@@ -49,7 +49,6 @@ struct TerrainContext {
   TerrainDomain domain;          ///< the whole terrain, of which the input may be a window
   std::filesystem::path folder;  ///< paths in parameters are relative to it
   const std::map<std::string, TerrainResult>& named;  ///< results of the named steps before
-  std::string step_name;                              ///< as the user named it, or the operator
   Progress& progress;
 
   /// The result of a named step. Throws Error(input) with the nearest name.
@@ -67,6 +66,8 @@ struct OperatorTraits {
   std::function<double(const T&, double cell)> reach = {};
   /// Names of steps that the parameters refer to.
   std::function<std::vector<std::string>(const T&)> references = {};
+  /// Names of the maps that come out.
+  std::vector<std::string> maps = {};
   /// Working memory besides input and output, bytes per sample.
   double bytes_per_sample = 8;
 };
@@ -74,6 +75,7 @@ struct OperatorTraits {
 struct TerrainOperator {
   Described defaults;
   bool makes_ground = false;
+  std::vector<std::string> maps;
   double bytes_per_sample = 8;
   std::function<double(const Described&, double cell)> reach;
   std::function<std::vector<std::string>(const Described&)> references;
@@ -93,6 +95,7 @@ TerrainOperator make_terrain_operator(Out (*work)(const Heightfield&, const T&,
   TerrainOperator op;
   op.defaults = Described::of(T{});
   op.makes_ground = traits.makes_ground;
+  op.maps = traits.maps;
   op.bytes_per_sample = traits.bytes_per_sample;
   op.reach = [reach = traits.reach](const Described& parameters, double cell) {
     return reach ? reach(parameters.as<T>(), cell) : 0.0;

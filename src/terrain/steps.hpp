@@ -62,9 +62,10 @@ struct StepSettings {
   std::string input;  ///< a named step; empty: the step before
   std::string mask;   ///< a named step or its map, or a picture; empty: everywhere
   bool mask_invert = false;
-  Range mask_height{-1e6F, 1e6F};  ///< m, of the input
+  Range mask_height{-1e5F, 1e5F};  ///< m, of the input
   Range mask_slope{0, 90};         ///< degrees, of the input
-  float mask_feather = 0;          ///< m for mask_height; a tenth as many degrees for mask_slope
+  float mask_height_feather = 40;  ///< m, width of the soft edge
+  float mask_slope_feather = 8;    ///< degrees
   Blend blend = Blend::automatic;
   float opacity = 1;
   std::uint32_t seed = 0;
@@ -96,7 +97,8 @@ void check_terrain(const TerrainWindow& window, std::span<const TerrainStep> ste
 
 /// Evaluates the steps over the whole terrain. Paths in parameters are relative to `folder`. Maps
 /// are named as their operator names them ("flow"; of several, the last) and, if their step has a
-/// name, also "NAME.flow". Throws as `check_terrain`, Error(cancelled), Error(io).
+/// name, also "NAME.flow" (a "mask" just "NAME"). Throws as `check_terrain`, Error(cancelled),
+/// Error(io).
 TerrainResult evaluate(const TerrainSettings& settings, std::span<const TerrainStep> steps,
                        std::span<const TerrainOperator> operators, std::uint64_t seed,
                        const std::filesystem::path& folder, Progress& progress);
