@@ -1,0 +1,108 @@
+#include "image/atomic_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.hpp"
+
+namespace wold {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AtomicFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() /
+              ("wold-file-" + std::string(test->name()) + "-" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override {
+    fs::permissions(folder_, fs::perms::owner_all);
+    fs::remove_all(folder_);
+  }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  int file_count() const {
+    return static_cast<int>(
+        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+  std::string check_error(const std::string& file, ErrorKind kind,
+                          const std::vector<std::string>& extensions = {}) const {
+    try {
+      check_writable(file, extensions);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), kind);
+      return e.message();
+    }
+    return "no error";
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(AtomicFile, FailureLeavesTheOldFileAndNoOther) {
+  write_file(path("a.txt"), "old");
+  const auto failing = [](const std::string& temporary) {
+    std::ofstream(temporary) << "half of the ne";
+    throw Error(ErrorKind::cancelled, "stopped");
+  };
+  EXPECT_THROW(write_atomically(path("a.txt"), failing), Error);
+  EXPECT_EQ(read_file(path("a.txt")), "old");
+  EXPECT_THROW(write_atomically(path("b.txt"), failing), Error);
+  EXPECT_EQ(file_count(), 1);
+}
+
+TEST_F(AtomicFile, TheTemporaryFileIsBesideItsPlaceWithTheSameExtension) {
+  write_atomically(path("a.exr"), [&](const std::string& temporary) {
+    EXPECT_EQ(fs::path(temporary).extension(), ".exr");
+    EXPECT_EQ(fs::path(temporary).parent_path(), folder_);
+    EXPECT_FALSE(fs::exists(path("a.exr")));
+    std::ofstream(temporary) << "new";
+  });
+  EXPECT_EQ(read_file(path("a.exr")), "new");
+  EXPECT_EQ(file_count(), 1);
+}
+
+TEST_F(AtomicFile, PermissionsAndLinksStay) {
+  write_file(path("a.txt"), "old");
+  ASSERT_EQ(::chmod(path("a.txt").c_str(), 0640), 0);
+  fs::create_symlink("a.txt", path("link.txt"));
+  write_file(path("link.txt"), "new");
+  EXPECT_TRUE(fs::is_symlink(path("link.txt")));
+  EXPECT_EQ(read_file(path("a.txt")), "new");
+  EXPECT_EQ(fs::status(path("a.txt")).permissions(), static_cast<fs::perms>(0640));
+}
+
+TEST_F(AtomicFile, WhatCannotBeWrittenIsSaidBefore) {
+  EXPECT_EQ(check_error(path("a.exr"), ErrorKind::io), "no error");
+  EXPECT_EQ(check_error("", ErrorKind::usage), "the name of the file to write is empty");
+  EXPECT_EQ(
+      check_error(path("x/a.exr"), ErrorKind::io),
+      "cannot write '" + path("x/a.exr") + "': the folder '" + path("x") + "' does not exist");
+  EXPECT_EQ(check_error(folder_.string(), ErrorKind::io),
+            "cannot write '" + folder_.string() + "': it is a folder; add a file name");
+  write_file(path("file"), "");
+  EXPECT_EQ(check_error(path("file/a.exr"), ErrorKind::io),
+            "cannot write '" + path("file/a.exr") + "': '" + path("file") + "' is not a folder");
+  EXPECT_EQ(check_error("/dev/null", ErrorKind::io),
+            "cannot write '/dev/null': it is not a regular file");
+  EXPECT_EQ(check_error("a.xyz", ErrorKind::usage, {".exr", ".png"}),
+            "cannot write 'a.xyz': unknown extension '.xyz'; known are .exr, .png");
+  EXPECT_EQ(check_error("a", ErrorKind::usage, {".exr"}),
+            "cannot write 'a': its name has no extension; known are .exr");
+  EXPECT_EQ(check_error(path("A.EXR"), ErrorKind::usage, {".exr"}), "no error");
+}
+
+TEST_F(AtomicFile, ReadOnlyFolderIsSaidBefore) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+  fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_NE(check_error(path("a.exr"), ErrorKind::io).find("permission denied"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace wold
