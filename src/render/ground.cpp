@@ -14,6 +14,9 @@ namespace {
 constexpr float largest_detail = 6;
 constexpr float detail_ratio_soil = 0.035F;
 constexpr float detail_ratio_rock = 0.11F;
+// Sizes of the noises that break up the edges of covers, m.
+constexpr double edge_size = 45;
+constexpr double grain_size = 1.7;
 constexpr float least_footprint = 0.004F;
 
 float smoothstep(float low, float high, float x) {
@@ -26,11 +29,13 @@ float slope_degrees(Vec2 gradient) {
   return degrees(std::atan(glm::length(gradient)));
 }
 
-Fractal texture(int octaves) {
-  Fractal f;
-  f.octaves = octaves;
-  f.hurst = 0.75F;
-  return f;
+Fractal texture(int octaves, float hurst = 0.75F) {
+  return {.octaves = octaves, .hurst = hurst};
+}
+
+std::uint32_t ground_seed(std::uint64_t seed, int which) {
+  return static_cast<std::uint32_t>(
+      random_bits(seed, hash_text(std::string_view("ground")), which));
 }
 
 }  // namespace
@@ -70,7 +75,16 @@ Ground::Ground(Heightfield field, Heightfield surroundings, GroundMaterial mater
     : field_(std::move(field)),
       surroundings_(std::move(surroundings)),
       material_(material),
-      seed_(static_cast<std::uint32_t>(random_bits(seed, hash_text(std::string_view("ground"))))) {
+      widest_detail_(std::min(largest_detail, static_cast<float>(field_.cell) * 2)),
+      detail_(texture(9, 0.95F), ground_seed(seed, 0)),
+      edges_(texture(5), ground_seed(seed, 1)),
+      grains_(texture(4), ground_seed(seed, 2)),
+      patches_(texture(5), ground_seed(seed, 3)),
+      soil_({material.soil_color1, material.soil_color2, 0.35F, 1.1F}, ground_seed(seed, 4)),
+      grass_({material.grass_color1, material.grass_color2, 0.8F, 0.9F}, ground_seed(seed, 5)),
+      // Beds of rock: patches are wide and low.
+      rock_({material.rock_color1, material.rock_color2, material.rock_feature_size, 1.1F},
+            ground_seed(seed, 6), 0.25F) {
   const Heightfield& widest = surroundings_.height.empty() ? field_ : surroundings_;
   low_ = widest.origin;
   high_ = widest.origin + widest.size();
@@ -99,67 +113,65 @@ GroundSample Ground::base(DVec2 place) const {
   return s;
 }
 
-GroundSample Ground::detailed(DVec2 place, float spacing) const {
-  GroundSample s = base(place);
-  const float widest = std::min(largest_detail, static_cast<float>(field_.cell) * 2);
-  if (material_.detail <= 0 || spacing > widest) return s;
+GroundSample Ground::with_detail(GroundSample s, DVec2 place, float spacing) const {
+  if (material_.detail <= 0 || spacing > widest_detail_) return s;
   const float rock =
       smoothstep(material_.rock_slope.low, material_.rock_slope.high, slope_degrees(s.gradient));
-  Fractal f = texture(9);
-  f.hurst = 0.95F;
-  const Sample2 n =
-      fractal(f, place / static_cast<double>(widest), seed_ ^ 0x5bd1e995U, spacing / widest);
+  const Sample2 n = detail_(place / static_cast<double>(widest_detail_), spacing / widest_detail_);
   const float ratio = material_.detail * std::lerp(detail_ratio_soil, detail_ratio_rock, rock);
-  s.height += ratio * widest * n.value;
+  s.height += ratio * widest_detail_ * n.value;
   s.gradient += ratio * n.derivative;
   return s;
+}
+
+GroundSample Ground::detailed(DVec2 place, float spacing) const {
+  return with_detail(base(place), place, spacing);
+}
+
+Ground::Cover Ground::cover(DVec2 place, float footprint, const GroundSample& base,
+                            const GroundSample& detailed) const {
+  const GroundMaterial& m = material_;
+  // One noise breaks up the edges of all covers, so that they do not follow contour lines.
+  Cover c;
+  c.jitter = edges_(place / edge_size, footprint / static_cast<float>(edge_size)).value;
+  c.grain = grains_(place / grain_size, footprint / static_cast<float>(grain_size)).value;
+  const float base_slope = slope_degrees(base.gradient) + 6 * c.jitter;
+  const float small_slope = slope_degrees(detailed.gradient) + 4 * c.grain;
+  const float height = base.height + 60 * c.jitter;
+  const float steep =
+      smoothstep(m.rock_slope.low, m.rock_slope.high, std::max(base_slope, 0.75F * small_slope));
+  c.rock = std::max(steep, smoothstep(m.rock_height.low, m.rock_height.high, height));
+  c.snow = smoothstep(m.snow_height.low, m.snow_height.high, height) *
+           (1 - smoothstep(m.snow_slope.low, m.snow_slope.high, 0.5F * (base_slope + small_slope)));
+  return c;
+}
+
+Vec3 Ground::soil_and_grass(Vec3 p, float footprint, const Cover& c) const {
+  const auto size = static_cast<double>(material_.patch_size);
+  const float patch = patches_(DVec2(p.x, p.y) / size, footprint / material_.patch_size).value;
+  // A share c of a value spread evenly over [-0.5, 0.5] lies above 0.5 - c.
+  const float threshold = 0.5F - material_.grass_cover;
+  const float grassy = smoothstep(threshold - 0.12F, threshold + 0.12F, patch + 0.35F * c.grain);
+  Vec3 color(0);
+  if (grassy < 1) color += (1 - grassy) * soil_.at(p, footprint);
+  if (grassy > 0) color += grassy * grass_.at(p, footprint);
+  return color * (1 + 0.25F * c.jitter);
 }
 
 GroundSurface Ground::surface(DVec2 place, float footprint) const {
   const float width = std::max(footprint, least_footprint);
   const GroundSample b = base(place);
-  const GroundSample s = detailed(place, width);
+  const GroundSample s = with_detail(b, place, width);
   const Vec3 p(Vec2(place), s.height);
-  const GroundMaterial& m = material_;
-
-  // One noise breaks up the edges of all covers, so that they do not follow contour lines.
-  const float jitter = fractal(texture(6), place / 45.0, seed_ + 1, width / 45).value;
-  const float fine = fractal(texture(5), place / 1.7, seed_ + 2, width / 1.7F).value;
-  const float base_slope = slope_degrees(b.gradient) + 7 * jitter;
-  const float small_slope = slope_degrees(s.gradient) + 5 * fine;
-  const float height = b.height + 60 * jitter;
-
-  const float steep =
-      smoothstep(m.rock_slope.low, m.rock_slope.high, std::max(base_slope, 0.8F * small_slope));
-  const float high = smoothstep(m.rock_height.low, m.rock_height.high, height);
-  const float rock = std::max(steep, high);
-  const float snow =
-      smoothstep(m.snow_height.low, m.snow_height.high, height) *
-      (1 - smoothstep(m.snow_slope.low, m.snow_slope.high, 0.5F * (base_slope + small_slope)));
-
+  const Cover c = cover(place, width, b, s);
   GroundSurface out;
   out.normal = normal_of(s.gradient);
   Vec3 color(0);
-  if (rock < 1) {
-    const TwoColors soil{m.soil_color1, m.soil_color2, 0.35F, 1.1F};
-    const TwoColors grass{m.grass_color1, m.grass_color2, 0.8F, 0.9F};
-    const float patch = fractal(texture(6), place / static_cast<double>(m.patch_size), seed_ + 3,
-                                width / m.patch_size)
-                            .value;
-    // A share c of a value spread evenly over [-0.5, 0.5] lies below c - 0.5.
-    const float threshold = 0.5F - m.grass_cover;
-    const float grassy = smoothstep(threshold - 0.12F, threshold + 0.12F, patch + 0.35F * fine);
-    color = two_colors(soil, p, width, seed_ + 4);
-    if (grassy > 0) color = glm::mix(color, two_colors(grass, p, width, seed_ + 5), grassy);
-    color *= 1 + 0.25F * jitter;
+  if (c.snow < 1) {
+    if (c.rock < 1) color += (1 - c.rock) * soil_and_grass(p, width, c);
+    if (c.rock > 0) color += c.rock * (1 + 0.3F * c.grain) * rock_.at(p, width);
   }
-  if (rock > 0) {
-    const TwoColors stone{m.rock_color1, m.rock_color2, m.rock_feature_size, 1.1F};
-    // Beds of rock: patches are wide and low.
-    const Vec3 layered = two_colors(stone, p, width, seed_ + 6, 0.25F) * (1 + 0.3F * fine);
-    color = glm::mix(color, layered, rock);
-  }
-  out.reflectance = glm::mix(color, m.snow_color, snow);
+  out.reflectance = glm::mix(color, material_.snow_color, c.snow);
   return out;
 }
 

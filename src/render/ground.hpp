@@ -63,10 +63,28 @@ class Ground {
   GroundSurface surface(DVec2 place, float footprint) const;
 
  private:
+  struct Cover {
+    float jitter = 0;  // noises about [-1, 1]
+    float grain = 0;
+    float rock = 0;  // shares
+    float snow = 0;
+  };
+  GroundSample with_detail(GroundSample base, DVec2 place, float spacing) const;
+  Cover cover(DVec2 place, float footprint, const GroundSample& base,
+              const GroundSample& detailed) const;
+  Vec3 soil_and_grass(Vec3 p, float footprint, const Cover& c) const;
+
   Heightfield field_;
   Heightfield surroundings_;
   GroundMaterial material_;
-  std::uint32_t seed_;
+  float widest_detail_;  // m
+  FractalSampler detail_;
+  FractalSampler edges_;
+  FractalSampler grains_;
+  FractalSampler patches_;
+  TwoColorTexture soil_;
+  TwoColorTexture grass_;
+  TwoColorTexture rock_;
   DVec2 low_{0};
   DVec2 high_{0};
   Range heights_;

@@ -4,7 +4,6 @@
 #include <array>
 
 #include "base/hash.hpp"
-#include "noise/fractal.hpp"
 
 namespace wold {
 
@@ -21,13 +20,16 @@ Vec3 tint(std::uint64_t bits, float amount) {
 
 }  // namespace
 
-Vec3 two_colors(const TwoColors& c, Vec3 p, float footprint, std::uint32_t seed, float stretch) {
-  Fractal f;
-  f.octaves = texture_octaves;
-  f.hurst = 0.7F;
-  const Vec3 scaled = Vec3(p.x, p.y, p.z / stretch) / c.feature_size;
-  const float n = fractal(f, DVec3(scaled), seed, footprint / c.feature_size).value;
-  return glm::mix(c.color1, c.color2, std::clamp(0.5F + c.contrast * n, 0.0F, 1.0F));
+TwoColorTexture::TwoColorTexture(const TwoColors& colors, std::uint32_t seed, float stretch)
+    : colors_(colors),
+      stretch_(stretch),
+      noise_(Fractal{.octaves = texture_octaves, .hurst = 0.7F}, seed) {}
+
+Vec3 TwoColorTexture::at(Vec3 p, float footprint) const {
+  const Vec3 scaled = Vec3(p.x, p.y, p.z / stretch_) / colors_.feature_size;
+  const float n = noise_(DVec3(scaled), footprint / colors_.feature_size).value;
+  const float share = std::clamp(0.5F + colors_.contrast * n, 0.0F, 1.0F);
+  return glm::mix(colors_.color1, colors_.color2, share);
 }
 
 Description<Material> describe(const Material&) {
@@ -155,15 +157,21 @@ std::span<const Material> standard_materials() {
   return list;
 }
 
-SurfaceColor surface_color(const Material& m, Vec3 p, float footprint, std::uint32_t individual,
-                           std::uint32_t leaf) {
-  const TwoColors colors{m.color1, m.color2, m.feature_size, m.contrast};
+SurfaceMaterial::SurfaceMaterial(const Material& material)
+    : material_(material),
+      texture_({material.color1, material.color2, material.feature_size, material.contrast},
+               static_cast<std::uint32_t>(hash_text(material.name)), material.stretch) {}
+
+SurfaceColor SurfaceMaterial::at(Vec3 p, float footprint, std::uint32_t individual,
+                                 std::uint32_t leaf) const {
+  const Material& m = material_;
+  const std::uint64_t bits = random_bits(individual, 1);
+  // Each individual has a piece of the texture of its own.
+  const Vec3 place = p + 100.0F * Vec3(uniform(bits), uniform(mix_bits(bits)), 0);
   Vec3 own{1};
-  if (m.variation > 0)
-    own = tint(random_bits(individual, 1), m.variation) *
-          tint(random_bits(individual, 2, leaf), m.variation);
+  if (m.variation > 0) own = tint(bits, m.variation) * tint(random_bits(bits, leaf), m.variation);
   SurfaceColor c;
-  c.reflectance = two_colors(colors, p, footprint, individual, m.stretch) * own;
+  c.reflectance = texture_.at(place, footprint) * own;
   c.transmittance = m.transmission * own;
   // Energy: what is reflected and let through is at most 95 % of what came.
   const Vec3 sum = c.reflectance + c.transmittance;

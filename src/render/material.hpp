@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/parameters.hpp"
+#include "noise/fractal.hpp"
 #include "render/bsdf.hpp"
 
 namespace wold {
@@ -21,9 +22,19 @@ struct TwoColors {
   float contrast = 1;
 };
 
-/// The mix at p (m), octaves finer than `footprint` (m) left out. `stretch` lengthens features
-/// along z.
-Vec3 two_colors(const TwoColors& c, Vec3 p, float footprint, std::uint32_t seed, float stretch = 1);
+/// Two colours ready to be looked up. `stretch` lengthens features along z.
+class TwoColorTexture {
+ public:
+  TwoColorTexture(const TwoColors& colors, std::uint32_t seed, float stretch = 1);
+
+  /// The mix at p (m); octaves finer than `footprint` (m) are left out.
+  Vec3 at(Vec3 p, float footprint) const;
+
+ private:
+  TwoColors colors_;
+  float stretch_;
+  FractalSampler noise_;
+};
 
 struct Material {
   std::string name;
@@ -42,13 +53,25 @@ Description<Material> describe(const Material&);
 /// The materials that plants in `plants/` name.
 std::span<const Material> standard_materials();
 
-/// A material's colours at a point: `p` in the model's own metres, `individual` and `leaf` number
-/// what it belongs to.
+/// Colours at a point of a surface.
 struct SurfaceColor {
   Vec3 reflectance{0};
   Vec3 transmittance{0};
 };
-SurfaceColor surface_color(const Material& m, Vec3 p, float footprint, std::uint32_t individual,
-                           std::uint32_t leaf);
+
+/// A material ready to be looked up.
+class SurfaceMaterial {
+ public:
+  explicit SurfaceMaterial(const Material& material);
+
+  float roughness() const { return material_.roughness; }
+  const Material& settings() const { return material_; }
+  /// `p` in the model's own metres; `individual` and `leaf` number what the point belongs to.
+  SurfaceColor at(Vec3 p, float footprint, std::uint32_t individual, std::uint32_t leaf) const;
+
+ private:
+  Material material_;
+  TwoColorTexture texture_;
+};
 
 }  // namespace wold

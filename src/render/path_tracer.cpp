@@ -52,7 +52,7 @@ SurfacePoint model_surface(const World& world, const Hit& hit, Vec3 view_directi
   std::size_t part = 0;
   while (part + 1 < mesh.parts.size() && hit.triangle >= mesh.parts[part + 1].first_triangle)
     ++part;
-  const Material& material = world.materials[model.part_materials[part]];
+  const SurfaceMaterial& material = world.materials[model.part_materials[part]];
 
   SurfacePoint s;
   s.position = hit.position;
@@ -64,12 +64,11 @@ SurfacePoint model_surface(const World& world, const Hit& hit, Vec3 view_directi
     if (std::isfinite(n.x + n.y + n.z)) s.normal = n;
   }
   // Neighbouring triangles make one leaf or needle twig; eight is near enough for their tint.
-  const SurfaceColor color =
-      surface_color(material, mixed(mesh.positions), footprint / instance.scale,
-                    instance.individual, hit.triangle / 8);
+  const SurfaceColor color = material.at(mixed(mesh.positions), footprint / instance.scale,
+                                         instance.individual, hit.triangle / 8);
   s.reflectance = color.reflectance;
   s.transmittance = color.transmittance;
-  s.roughness = material.roughness;
+  s.roughness = material.roughness();
   return s;
 }
 

@@ -4,6 +4,7 @@
 #include <tbb/task_arena.h>
 #include <x86intrin.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -21,7 +22,15 @@ constexpr unsigned first_instance_id = 1;
 // How Embree splits its work, and with that the order of what it builds, follows the number of
 // threads that it could have. Building always in an arena of this size makes the result the same
 // for any number that it does have.
-constexpr int build_slots = 16;
+constexpr int build_slots = 64;
+
+tbb::task_arena build_arena() {
+  const auto threads = static_cast<int>(
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  // Slots that are reserved for callers are counted but never filled by workers.
+  const int workers = std::clamp(threads - 1, 0, build_slots - 1);
+  return tbb::task_arena(build_slots, static_cast<unsigned>(build_slots - workers));
+}
 
 void check_device(RTCDevice device) {
   const RTCError code = rtcGetDeviceError(device);
@@ -71,7 +80,7 @@ Mat3 instance_matrix(const ModelInstance& instance) {
 
 RayScene::RayScene(const World& world, const std::vector<GroundTile>& tiles, Progress& progress)
     : world_(&world), device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_.get())) {
-  tbb::task_arena arena(build_slots);
+  tbb::task_arena arena = build_arena();
   arena.execute([&] {
     add_ground(tiles, progress);
     add_models(progress);

@@ -32,7 +32,7 @@ struct ModelInstance {
 
 struct World {
   Ground ground;
-  std::vector<Material> materials;
+  std::vector<SurfaceMaterial> materials;
   std::vector<Model> models;
   std::vector<ModelInstance> instances;
   Sky sky;

@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+
+#include "base/error.hpp"
+#include "cli/commands.hpp"
+#include "cli/session.hpp"
+#include "image/atomic_file.hpp"
+#include "scene/scene.hpp"
+
+namespace wold {
+
+namespace {
+
+void list_all(const CLI::App& app) {
+  fmt::print("{}\n\nCommands ('wold help COMMAND'):\n", app.get_description());
+  for (const CLI::App* command : app.get_subcommands({}))
+    fmt::print("  {:<14} {}\n", command->get_name(), command->get_description());
+  fmt::print("\nSections of a scene file ('wold help SECTION'):\n");
+  for (const SceneSection& s : scene_sections()) {
+    const std::string written = s.repeated ? "[[" + s.path + "]]" : "[" + s.path + "]";
+    fmt::print("  {:<14} {}\n", written, s.defaults.parameters().text);
+  }
+  fmt::print("\nOperators of [[terrain.step]] ('wold help OPERATOR'):\n");
+  for (const TerrainOperator& op : scene_operators())
+    fmt::print("  {:<14} {}\n", op.name(), op.text());
+}
+
+void print_set(const ParameterSet& set, const void* defaults) {
+  fmt::print("{}", help_text(set, defaults));
+}
+
+/// Prints the help of a command, a section or an operator. Throws Error(usage) for anything else.
+void explain(const CLI::App& app, const std::string& topic) {
+  std::vector<std::string> known;
+  bool found = false;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    known.push_back(command->get_name());
+    if (command->get_name() != topic) continue;
+    fmt::print("{}", command->help());
+    found = true;
+  }
+  for (const SceneSection& section : scene_sections()) {
+    known.push_back(section.path);
+    if (section.path != topic) continue;
+    if (found) fmt::print("\n");
+    print_set(section.defaults.parameters(), section.defaults.data());
+    found = true;
+  }
+  for (const TerrainOperator& op : scene_operators()) {
+    known.push_back(op.name());
+    if (op.name() != topic) continue;
+    print_set(op.defaults.parameters(), op.defaults.data());
+    const StepSettings common;
+    fmt::print("\nBesides, as for every step: ");
+    print_set(describe(common), &common);
+    found = true;
+  }
+  if (!found)
+    throw Error(ErrorKind::usage,
+                fmt::format("there is no help on '{}'.{}", topic, suggestion(topic, known)));
+}
+
+/// Markdown pages, one per operator and one of all sections, and the JSON Schema, into a folder.
+void write_reference(const std::string& folder) {
+  std::string sections =
+      "# Sections of a scene file\n\nWritten by `wold help --write-reference`.\n";
+  for (const SceneSection& s : scene_sections())
+    sections += "\n#" + reference_markdown(s.defaults.parameters(), s.defaults.data());
+  const StepSettings common;
+  sections += "\n#" + reference_markdown(describe(common), &common);
+  std::string index =
+      "# Reference\n\nWritten by `wold help --write-reference`.\n\n- [Sections of a scene "
+      "file](scene.md)\n- [JSON Schema](scene.schema.json)\n\nOperators of `[[terrain.step]]`:\n\n";
+  for (const TerrainOperator& op : scene_operators()) {
+    index += fmt::format("- [{}]({}.md): {}\n", op.name(), op.name(), op.text());
+    write_file(fmt::format("{}/{}.md", folder, op.name()),
+               reference_markdown(op.defaults.parameters(), op.defaults.data()));
+  }
+  write_file(folder + "/scene.md", sections);
+  write_file(folder + "/README.md", index);
+  write_file(folder + "/scene.schema.json", scene_schema());
+}
+
+}  // namespace
+
+void add_help(CLI::App& app, Session&) {
+  auto topic = std::make_shared<std::string>();
+  auto folder = std::make_shared<std::string>();
+  auto schema = std::make_shared<bool>(false);
+  CLI::App* command =
+      app.add_subcommand("help", "Explain a command, a section of a scene or an operator");
+  command->add_option("topic", *topic, "Command, section or operator")->type_name("TOPIC");
+  command->add_flag("--schema", *schema, "Print the JSON Schema of scene files");
+  command
+      ->add_option("--write-reference", *folder,
+                   "Write the reference pages and the schema into a folder")
+      ->type_name("FOLDER");
+  command->callback([&app, topic, folder, schema] {
+    if (!folder->empty()) {
+      write_reference(*folder);
+    } else if (*schema) {
+      fmt::print("{}", scene_schema());
+    } else if (topic->empty()) {
+      list_all(app);
+    } else {
+      explain(app, *topic);
+    }
+  });
+}
+
+}  // namespace wold

@@ -1,0 +1,266 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "cli/commands.hpp"
+#include "cli/session.hpp"
+#include "image/atomic_file.hpp"
+#include "image/io.hpp"
+#include "image/tonemap.hpp"
+#include "scene/build.hpp"
+
+namespace wold {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct RenderOptions {
+  std::string scene;
+  std::vector<std::string> outputs;
+  std::string size;
+  std::string samples;
+  std::string camera;
+};
+
+double since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::optional<std::uint32_t> number(std::string_view text) {
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// "N" is [0, N); "A:B" is [A, B).
+SampleRange parse_samples(const std::string& text) {
+  const auto colon = text.find(':');
+  const auto first = colon == std::string::npos ? 0U : number(text.substr(0, colon));
+  const auto last = number(colon == std::string::npos ? text : text.substr(colon + 1));
+  if (!first || !last || *first >= *last || *last > (1U << 20U))
+    throw Error(ErrorKind::usage,
+                fmt::format("'--samples {}' must be a number such as 64, or a range such as 0:32 "
+                            "with the end after the start, up to {}",
+                            text, 1U << 20U));
+  return {*first, *last};
+}
+
+std::string size_override(const std::string& text) {
+  const auto x = text.find_first_of("xX");
+  const auto width = x == std::string::npos ? std::nullopt : number(text.substr(0, x));
+  const auto height = x == std::string::npos ? std::nullopt : number(text.substr(x + 1));
+  if (!width || !height)
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("'--size {}' must be width x height in pixels, such as 1280x720", text));
+  return fmt::format("render.size=[{}, {}]", *width, *height);
+}
+
+/// One render, from the command line to its files.
+class RenderRun {
+ public:
+  RenderRun(const Session& session, RenderOptions options)
+      : session_(session), options_(std::move(options)) {}
+
+  void run() {
+    const auto start = Clock::now();
+    prepare();
+    Progress progress = session_.progress();
+    BuiltScene built = build(scene_, options_.camera, progress);
+    const double build_seconds = since(start);
+    describe_scene(built);
+    const CameraRays camera(built.camera, film_.width(), film_.height());
+    const auto render_start = Clock::now();
+    RenderCounts counts;
+    bool interrupted = false;
+    try {
+      counts = trace_picture(*built.rays, camera, scene_.render,
+                             {range_, scene_.header.seed, false}, film_, progress);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::cancelled || film_.total_samples() == 0) throw;
+      progress.end();
+      interrupted = true;
+    }
+    const double render_seconds = since(render_start);
+    write();
+    report(built, counts, build_seconds, render_seconds, interrupted);
+    if (interrupted)
+      throw Error(
+          ErrorKind::cancelled,
+          fmt::format("interrupted; the picture so far, {:.1f} samples for each pixel, is in {}",
+                      mean_samples(), fmt::join(options_.outputs, " and ")));
+  }
+
+ private:
+  /// Everything that can be wrong is found here, before any work.
+  void prepare() {
+    std::vector<std::string> overrides = session_.overrides();
+    if (!options_.size.empty()) overrides.push_back(size_override(options_.size));
+    if (!options_.samples.empty()) range_ = parse_samples(options_.samples);
+    if (options_.outputs.empty())
+      options_.outputs.push_back(std::filesystem::path(options_.scene).stem().string() + ".png");
+    for (const std::string& output : options_.outputs) {
+      static const std::vector<std::string> known{".exr", ".png"};
+      check_writable(output, known);
+    }
+    scene_ = read_scene(options_.scene, overrides);
+    if (options_.samples.empty()) range_ = {0, static_cast<std::uint32_t>(scene_.render.samples)};
+    (void)scene_.camera(options_.camera);
+    film_ = Film(scene_.render.size.x, scene_.render.size.y);
+  }
+
+  void describe_scene(const BuiltScene& built) const {
+    std::string plants;
+    for (const auto& [name, count] : built.plants)
+      plants += fmt::format("{}{} {}", plants.empty() ? "" : ", ",
+                            count_text(static_cast<double>(count)), name);
+    const Vec3 p = built.camera.position;
+    session_.say(fmt::format("{} triangles ({} with every plant counted); plants: {}",
+                             count_text(static_cast<double>(built.rays->unique_triangles())),
+                             count_text(static_cast<double>(built.rays->all_triangles())),
+                             plants.empty() ? "none" : plants));
+    session_.say(fmt::format(
+        "camera: position = [{:.1f}, {:.1f}, {:.1f}], look_direction = [{:.3f}, {:.3f}, {:.3f}]",
+        p.x, p.y, p.z, built.camera.direction.x, built.camera.direction.y,
+        built.camera.direction.z));
+  }
+
+  double mean_samples() const {
+    return static_cast<double>(film_.total_samples()) /
+           (static_cast<double>(film_.width()) * film_.height());
+  }
+
+  /// Land decides the exposure, not the sky.
+  static std::vector<float> metering(const Image& image) {
+    const int cover = image.find("A");
+    std::vector<float> weights;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        weights.push_back(0.12F + 0.88F * image.at(x, y, cover));
+    return weights;
+  }
+
+  void write_one(const std::string& path, const Image& image) const {
+    if (extension_of(path) == ".png") {
+      write_png(path, display_image(image, scene_.picture, metering(image)),
+                {.bits = 8, .srgb = true, .dither = true});
+      return;
+    }
+    ExrOptions exr;
+    exr.half_channels = {"albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z"};
+    exr.metadata = {{"wold.version", WOLD_VERSION},
+                    {"wold.scene", std::filesystem::path(options_.scene).filename().string()},
+                    {"wold.seed", std::to_string(scene_.header.seed)},
+                    {"wold.samples", fmt::format("{}:{}", range_.first, range_.last)},
+                    {"wold.whiteLuminance", fmt::format("{}", white_luminance)}};
+    write_exr(path, image, exr);
+  }
+
+  /// What took minutes is not lost to a full disk: a picture that cannot be written where it was
+  /// wanted goes to the folder for temporary files.
+  void write() {
+    const Image image = film_.image();
+    for (std::string& output : options_.outputs) {
+      try {
+        write_one(output, image);
+      } catch (const Error& error) {
+        std::filesystem::path refuge =
+            std::filesystem::temp_directory_path() / std::filesystem::path(output).filename();
+        if (std::filesystem::exists(refuge)) throw;
+        write_one(refuge.string(), image);
+        session_.say(
+            fmt::format("wold: warning: {}; saved as {} instead", error.what(), refuge.string()));
+        output = refuge.string();
+      }
+    }
+  }
+
+  void report(const BuiltScene& built, const RenderCounts& counts, double build_seconds,
+              double render_seconds, bool interrupted) const {
+    if (film_.rejected() > 0)
+      session_.say(fmt::format("wold: warning: {} samples were not finite and were left out",
+                               film_.rejected()));
+    if (!interrupted)
+      session_.say(fmt::format("wrote {} ({} x {}, {} samples, scene {}, rendering {})",
+                               fmt::join(options_.outputs, " and "), film_.width(), film_.height(),
+                               range_.last - range_.first, duration_text(build_seconds),
+                               duration_text(render_seconds)));
+    Json seconds;
+    for (const auto& [stage, time] : built.seconds) seconds[stage] = time;
+    seconds["scene"] = build_seconds;
+    seconds["render"] = render_seconds;
+    seconds["first_pass"] = counts.first_pass_seconds;
+    const Camera& c = built.camera;
+    session_.print({{"command", "render"},
+                    {"scene", options_.scene},
+                    {"outputs", options_.outputs},
+                    {"complete", !interrupted},
+                    {"size", {film_.width(), film_.height()}},
+                    {"samples", {range_.first, range_.last}},
+                    {"seed", scene_.header.seed},
+                    {"camera",
+                     {{"position", {c.position.x, c.position.y, c.position.z}},
+                      {"look_direction", {c.direction.x, c.direction.y, c.direction.z}},
+                      {"field_of_view", c.field_of_view}}},
+                    {"seconds", seconds},
+                    {"paths", film_.total_samples() + film_.rejected()},
+                    {"rays", counts.rays},
+                    {"paths_per_second",
+                     static_cast<double>(film_.total_samples()) / std::max(render_seconds, 1e-9)},
+                    {"rejected_samples", film_.rejected()},
+                    {"instances", built.world->instances.size()},
+                    {"plants", built.plants},
+                    {"unique_triangles", built.rays->unique_triangles()},
+                    {"triangles", built.rays->all_triangles()},
+                    {"peak_memory_bytes", peak_memory()}});
+  }
+
+  const Session& session_;
+  RenderOptions options_;
+  Scene scene_;
+  SampleRange range_;
+  Film film_;
+};
+
+}  // namespace
+
+void add_render(CLI::App& app, Session& session) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* command = app.add_subcommand("render", "Make a scene's picture");
+  command->add_option("scene", options->scene, "The scene's TOML file")
+      ->required()
+      ->type_name("SCENE");
+  command
+      ->add_option(
+          "-o,--output", options->outputs,
+          "Picture to write, .png or .exr (linear, with layers); may be given more than once")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command->add_option("--size", options->size, "Size of the picture in pixels")->type_name("WxH");
+  command
+      ->add_option("--samples", options->samples,
+                   "Light paths for each pixel, or a range of them to be merged later")
+      ->type_name("N|A:B");
+  command->add_option("--camera", options->camera, "Which of the scene's cameras")
+      ->type_name("NAME");
+  session.add_scene_options(*command);
+  session.add_output_options(*command);
+  command->callback([&session, options] {
+    std::optional<ThreadLimit> limit;
+    if (session.threads > 0) limit.emplace(session.threads);
+    RenderRun(session, *options).run();
+  });
+}
+
+}  // namespace wold

@@ -1,0 +1,11 @@
+#pragma once
+// What a scene gets where its file says nothing: rolling hills and a mixed forest, as TOML.
+
+namespace wold {
+
+/// [[terrain.step]] of a scene without steps.
+extern const char* const default_steps;
+/// [[species]], [[scatter]] and [[material]] of a scene without species and scatter.
+extern const char* const default_forest;
+
+}  // namespace wold

@@ -1,0 +1,219 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "image/atomic_file.hpp"
+#include "scene/defaults.hpp"
+#include "scene/scene.hpp"
+#include "scene/toml_values.hpp"
+#include "terrain/operators.hpp"
+
+namespace wold {
+
+namespace {
+
+constexpr int format_version = 1;
+const std::vector<std::string> step_key{"step"};
+
+[[noreturn]] void unknown_section(std::string_view name, const toml::source_region& source) {
+  std::vector<std::string> known{"wold", "seed"};
+  for (const SceneSection& section : scene_sections())
+    if (section.path.find('.') == std::string::npos) known.push_back(section.path);
+  throw Error(ErrorKind::input,
+              fmt::format("unknown section or key '{}'.{}", name, suggestion(name, known)),
+              location_of(source));
+}
+
+const toml::table& table_of(const toml::node& node, std::string_view name) {
+  if (const auto* table = node.as_table()) return *table;
+  throw Error(ErrorKind::input, fmt::format("'{}' must be a section, [{}]", name, name),
+              location_of(node.source()));
+}
+
+template <class Visit>
+void for_each_table(const toml::table& parent, const std::string& name, const Visit& visit) {
+  const toml::node* node = parent.get(name);
+  if (node == nullptr) return;
+  if (const auto* single = node->as_table()) {
+    visit(*single);
+    return;
+  }
+  const auto* array = node->as_array();
+  const bool good =
+      array != nullptr && (array->empty() || array->is_homogeneous(toml::node_type::table));
+  if (!good)
+    throw Error(ErrorKind::input,
+                fmt::format("'{}' must be a list of sections, [[{}]]", name, name),
+                location_of(node->source()));
+  for (const toml::node& item : *array) visit(*item.as_table());
+}
+
+template <class T>
+void read_section(const toml::table& root, const char* name, T& object,
+                  std::span<const std::string> skip = {}) {
+  const toml::node* node = root.get(name);
+  if (node != nullptr) assign_all(describe(object), &object, table_of(*node, name), skip);
+}
+
+template <class T>
+void read_sections(const toml::table& root, const char* name, std::vector<T>& list) {
+  for_each_table(root, name, [&](const toml::table& table) {
+    T object;
+    assign_all(describe(object), &object, table);
+    list.push_back(std::move(object));
+  });
+}
+
+TerrainStep read_step(const toml::table& table) {
+  const toml::node* op = table.get("op");
+  const SourceLocation where = location_of(table.source());
+  if (op == nullptr || !op->is_string())
+    throw Error(ErrorKind::input, "a [[terrain.step]] needs an operator, such as op = \"ridged\"",
+                where);
+  TerrainStep step =
+      make_step(scene_operators(), op->as_string()->get(), location_of(op->source()));
+  step.location = where;
+  for (const auto& [key, node] : table)
+    if (key != "op") {
+      const bool known = step.parameters.parameters().find(key.str()) != nullptr ||
+                         describe(step.settings).parameters().find(key.str()) != nullptr;
+      assign(step, key.str(), known ? value_of(node) : Value(false),
+             location_of(known ? node.source() : key.source()));
+    }
+  return step;
+}
+
+void insert_missing(toml::table& root, const char* toml_text,
+                    std::initializer_list<const char*> keys) {
+  toml::table defaults = parse_toml(toml_text, "default scene");
+  for (const char* key : keys)
+    if (const toml::node* node = defaults.get(key)) root.insert_or_assign(key, *node);
+}
+
+/// Puts the default steps and plants into a document that has none, so that overrides find them.
+void add_defaults(toml::table& root) {
+  toml::node* terrain = root.get("terrain");
+  if (terrain == nullptr) terrain = &root.insert("terrain", toml::table{}).first->second;
+  auto* table = terrain->as_table();
+  if (table != nullptr && !table->contains("step")) {
+    const toml::table defaults = parse_toml(default_steps, "default scene");
+    table->insert("step", *defaults["terrain"]["step"].as_array());
+  }
+  if (!root.contains("species") && !root.contains("scatter"))
+    insert_missing(root, default_forest, {"species", "scatter"});
+}
+
+void check_species(const Scene& scene, const toml::table& root) {
+  std::vector<std::string> names;
+  for (const SpeciesSettings& s : scene.species) names.push_back(s.name);
+  std::size_t k = 0;
+  for_each_table(root, "scatter", [&](const toml::table& table) {
+    for (const auto& [name, weight] : scene.scatter[k++].species)
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        throw Error(
+            ErrorKind::input,
+            fmt::format("no [[species]] is called '{}'.{}", name, suggestion(name, names)),
+            location_of(table["species"].node() != nullptr ? table["species"].node()->source()
+                                                           : table.source()));
+  });
+}
+
+Scene scene_of(const toml::table& root, const std::string& source,
+               const std::filesystem::path& folder) {
+  Scene scene;
+  scene.source = source;
+  scene.folder = folder;
+  const ParameterSet header = describe(scene.header);
+  const std::vector<SceneSection> sections = scene_sections();
+  for (const auto& [key, node] : root) {
+    const std::string name(key.str());
+    if (header.find(name) != nullptr) {
+      header.assign(&scene.header, name, value_of(node), location_of(node.source()));
+    } else if (std::none_of(sections.begin(), sections.end(),
+                            [&](const SceneSection& s) { return s.path == name; })) {
+      unknown_section(name, key.source());
+    }
+  }
+  if (scene.header.wold > format_version)
+    throw Error(ErrorKind::input,
+                fmt::format("this scene is of format {}, but this wold reads up to {}",
+                            scene.header.wold, format_version),
+                {source, 0, 0});
+  read_section(root, "terrain", scene.terrain, step_key);
+  if (const auto* terrain = root["terrain"].as_table())
+    for_each_table(*terrain, "step",
+                   [&](const toml::table& table) { scene.steps.push_back(read_step(table)); });
+  read_section(root, "surroundings", scene.surroundings);
+  read_section(root, "ground", scene.ground);
+  read_section(root, "sky", scene.sky);
+  read_section(root, "render", scene.render);
+  read_section(root, "picture", scene.picture);
+  read_sections(root, "material", scene.materials);
+  read_sections(root, "species", scene.species);
+  read_sections(root, "scatter", scene.scatter);
+  read_sections(root, "camera", scene.cameras);
+  if (scene.cameras.empty()) scene.cameras.emplace_back();
+  check_species(scene, root);
+  return scene;
+}
+
+}  // namespace
+
+Description<SceneHeader> describe(const SceneHeader&) {
+  return Description<SceneHeader>("scene", "What stands at the top of a scene file.")
+      .add("wold", &SceneHeader::wold, {.min = 1}, "Version of the format.")
+      .add("seed", &SceneHeader::seed, {.min = 0, .max = 9007199254740992.0},
+           "Another number gives another landscape.");
+}
+
+Description<Surroundings> describe(const Surroundings&) {
+  return Description<Surroundings>("surroundings",
+                                   "The land around the terrain, seen in the distance.")
+      .add("factor", &Surroundings::factor, {.min = 1, .max = 100},
+           "Its size, in sizes of the terrain; 1 for none.")
+      .add("resolution", &Surroundings::resolution, {.min = 3, .max = 16385}, "Samples on a side.");
+}
+
+const CameraSettings& Scene::camera(const std::string& name) const {
+  if (name.empty()) return cameras.front();
+  std::vector<std::string> names;
+  for (const CameraSettings& c : cameras) {
+    if (c.name == name) return c;
+    names.push_back(c.name);
+  }
+  throw Error(ErrorKind::usage,
+              fmt::format("{} has no camera '{}'.{}", source, name, suggestion(name, names)));
+}
+
+std::vector<SceneSection> scene_sections() {
+  return {
+      {"terrain", false, Described::of(TerrainSettings{})},
+      {"surroundings", false, Described::of(Surroundings{})},
+      {"ground", false, Described::of(GroundMaterial{})},
+      {"material", true, Described::of(Material{})},
+      {"species", true, Described::of(SpeciesSettings{})},
+      {"scatter", true, Described::of(ScatterSettings{})},
+      {"sky", false, Described::of(SkySettings{})},
+      {"camera", true, Described::of(CameraSettings{})},
+      {"render", false, Described::of(RenderSettings{})},
+      {"picture", false, Described::of(ToneMapping{})},
+  };
+}
+
+OperatorList scene_operators() {
+  return terrain_operators();
+}
+
+Scene parse_scene(const std::string& text, const std::string& source,
+                  const std::filesystem::path& folder, std::span<const std::string> overrides) {
+  toml::table root = parse_toml(text, source);
+  add_defaults(root);
+  for (const std::string& assignment : overrides) override_value(root, assignment);
+  return scene_of(root, source, folder);
+}
+
+Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  return parse_scene(read_file(file.string()), file.string(), file.parent_path(), overrides);
+}
+
+}  // namespace wold
