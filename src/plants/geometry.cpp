@@ -57,6 +57,13 @@ class PlantBuilder {
         settings_(settings),
         scale_(scale),
         progress_(progress) {
+    continued_.assign(skeleton.axes.size(), false);
+    for (const Skeleton::Axis& axis : skeleton.axes) {
+      if (axis.parent < 0) continue;
+      const auto parent = static_cast<std::size_t>(axis.parent);
+      if (axis.parent_node + 1 == std::ssize(skeleton.axes[parent].nodes))
+        continued_[parent] = true;
+    }
     for (const std::string& colour : geometry.colours) parts_.of(colour);
     for (const Organ& organ : organs) {
       parts_.of(organ.material);
@@ -91,7 +98,8 @@ class PlantBuilder {
         (0.08F * widest + 0.003F / std::max(scale_, 1e-9F)) / std::max(settings_.detail, 1e-3F);
     style.tolerance = std::min(style.tolerance, 0.5F * widest + 0.003F / scale_);
     style.sides = sides(world_radius);
-    style.pointed = axis.nodes.back().radius < 0.4F * widest || geometry_.twig_radius > 0;
+    style.pointed =
+        !continued_[a] && (axis.nodes.back().radius < 0.4F * widest || geometry_.twig_radius > 0);
     if (axis.parent < 0) {
       style.sink = geometry_.sink;
       style.flare = geometry_.flare;
@@ -183,6 +191,7 @@ class PlantBuilder {
   Progress& progress_;
   TriangleMesh mesh_;
   PartList parts_;
+  std::vector<bool> continued_;  // axes that another goes on from at their end
   std::vector<TriangleMesh> organ_meshes_;
 };
 

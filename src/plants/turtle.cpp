@@ -167,15 +167,19 @@ class Turtle {
     }
   }
 
+  Skeleton::Axis& axis_of_state() { return skeleton_.axes[static_cast<std::size_t>(state_.axis)]; }
+
   void segment(const DVec3& target) {
     const auto radius = static_cast<float>(state_.radius);
-    if (state_.begins) {
+    const bool recoloured = state_.axis >= 0 && axis_of_state().colour != state_.colour;
+    if (state_.begins || recoloured) {
       const Skeleton::Node start{Vec3(state_.position), radius};
       skeleton_.axes.push_back({state_.axis, state_.node, state_.colour, {start}});
       state_.axis = static_cast<int>(std::ssize(skeleton_.axes)) - 1;
+      state_.node = 0;
       state_.begins = false;
     }
-    auto& nodes = skeleton_.axes[static_cast<std::size_t>(state_.axis)].nodes;
+    auto& nodes = axis_of_state().nodes;
     nodes.push_back({Vec3(target), radius});
     state_.node = static_cast<int>(std::ssize(nodes)) - 1;
   }
