@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 
 namespace wold {
 
@@ -23,13 +23,11 @@ void check_same_size(const Image& image, int width, int height) {
 
 void check_memory(double floats, const std::string& what) {
   const double bytes = floats * sizeof(float);
-  const double memory =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  constexpr double gib = 1024.0 * 1024.0 * 1024.0;
-  if (bytes > memory)
-    throw Error(ErrorKind::limit, fmt::format("{} needs {:.1f} GiB of memory; this machine has "
-                                              "{:.1f} GiB. Choose a smaller size.",
-                                              what, bytes / gib, memory / gib));
+  const auto available = static_cast<double>(available_memory());
+  if (available > 0 && bytes > available)
+    throw Error(ErrorKind::limit,
+                fmt::format("{} needs {} of memory; {} are free. Choose a smaller size.", what,
+                            memory_text(bytes), memory_text(available)));
 }
 
 Image::Image(int width_, int height_, std::vector<std::string> channels_, float value)

@@ -73,7 +73,7 @@ struct ColorChannels {
 };
 ColorChannels color_channels(const Image& image);
 
-/// Throws Error(limit) if so many floats exceed the memory of this machine. `what` begins the
+/// Throws Error(limit) if so many floats exceed the free memory. `what` begins the
 /// message: "A picture of 100000 x 100000 with 4 channels".
 void check_memory(double floats, const std::string& what);
 
