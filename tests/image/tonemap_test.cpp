@@ -123,10 +123,10 @@ TEST(Exposure, BlackAndBrokenPixelsDoNotCount) {
 TEST(Exposure, SunAndSkyMoveItLittle) {
   Image image = grey_picture(64, 64, 0.18F);
   const float land = measured_exposure(image);
-  for (int y = 0; y < 2; ++y)
-    for (int x = 0; x < 64; ++x)
-      for (int c = 0; c < 3; ++c) image.at(x, y, c) = 1e5F;  // the sun: below 5 percent
-  EXPECT_NEAR(measured_exposure(image), land, 0.15F);
+  Image glitter = image;
+  for (int x = 0; x < 64; ++x)
+    for (int c = 0; c < 3; ++c) glitter.at(x, 63, c) = 1e5F;  // the sun in water: below 5 percent
+  EXPECT_NEAR(measured_exposure(glitter), land, 0.05F);
   for (int y = 0; y < 32; ++y)
     for (int x = 0; x < 64; ++x)
       for (int c = 0; c < 3; ++c) image.at(x, y, c) = 0.18F * 8;  // a sky 3 stops brighter
