@@ -11,6 +11,7 @@
 #include "base/parallel.hpp"
 #include "plants/plant.hpp"
 #include "render/ground_mesh.hpp"
+#include "terrain/import.hpp"
 
 namespace wold {
 
@@ -133,31 +134,50 @@ class Planter {
 
   /// Scatters what does (or does not) stand only near the camera.
   void plant(bool near_camera, Progress& progress) {
+    const Heightfield& field = built_.world->ground.field();
     for (std::size_t k = 0; k < scene_.scatter.size(); ++k) {
       const ScatterSettings& settings = scene_.scatter[k];
-      if ((settings.within > 0) != near_camera) continue;
-      ScatterRequest request;
-      request.seed = random_bits(scene_.header.seed, hash_text(std::string_view("scatter")), k);
-      request.center = DVec2(built_.camera.position.x, built_.camera.position.y);
-      request.species = scene_.species;
-      for (const Instance& instance :
-           scatter(built_.world->ground.field(), settings, request, progress))
-        add(instance);
+      if ((settings.where.within > 0) != near_camera) continue;
+      const Heightfield mask = mask_of(settings, progress);
+      ScatterPlace place;
+      place.low = field.origin;
+      place.high = field.origin + field.size();
+      place.centre = DVec2(built_.camera.position.x, built_.camera.position.y);
+      place.mask = mask.height.empty() ? nullptr : &mask;
+      const auto seed =
+          random_bits(scene_.header.seed, hash_text(std::string_view("scatter")), k);
+      add(scatter(field, settings, scene_.species, place, seed, progress));
     }
   }
 
  private:
-  void add(const Instance& instance) {
-    const SpeciesSettings& species = scene_.species[instance.species];
-    ModelInstance m;
-    m.position = instance.position;
-    m.up = instance.up;
-    m.yaw = instance.yaw;
-    m.scale = instance.scale;
-    m.model = models_.first_model[instance.species] + instance.model;
-    m.individual = static_cast<std::uint32_t>(built_.world->instances.size());
-    built_.world->instances.push_back(m);
-    ++built_.plants[species.name];
+  /// A map that a terrain step made, or a picture over the whole terrain; empty when none is asked for.
+  Heightfield mask_of(const ScatterSettings& settings, Progress& progress) const {
+    if (settings.mask.empty()) return {};
+    const Heightfield& field = built_.world->ground.field();
+    Heightfield mask = field;
+    if (const auto map = built_.maps.find(settings.mask.path); map != built_.maps.end()) {
+      mask.height = map->second;
+    } else {
+      const auto file = find_scene_file(settings.mask.path, scene_.folder);
+      mask.height =
+          picture_over(file, "", TerrainDomain{field.origin, field.size()}, field, progress);
+    }
+    return mask;
+  }
+
+  void add(const std::vector<Instance>& plants) {
+    for (const Instance& plant : plants) {
+      ModelInstance m;
+      m.position = plant.position;
+      m.up = plant.up;
+      m.yaw = plant.yaw;
+      m.scale = plant.scale;
+      m.model = models_.first_model[plant.species] + plant.model;
+      m.individual = plant.individual;
+      built_.world->instances.push_back(m);
+      ++built_.plants[scene_.species[plant.species].name];
+    }
   }
 
   const Scene& scene_;
