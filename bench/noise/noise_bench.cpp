@@ -69,7 +69,7 @@ void measure(benchmark::State& state, double points, double peer, const Work& wo
   }
 }
 
-constexpr int size = 1024;
+constexpr int size = 512;  // short enough that a run is often undisturbed
 
 // Samples per feature are the argument.
 void noise_over_grid(benchmark::State& state, NoiseBasis basis, double peer) {

@@ -1,4 +1,4 @@
-// Fractals over a grid, by tiles of 64 × 32 samples.
+// Fractals over a grid, by tiles of 64 × 64 samples.
 //
 // The lattice of every octave is turned, so no coordinate is constant along a row. What can be
 // shared:
@@ -8,10 +8,11 @@
 //   cell and fraction in double once per tile; a sample adds them and carries.
 // - The gradients (or values) of all lattice points under the tile are hashed once into a small
 //   table: at four samples per feature and fewer points than samples.
-// - A vector holds a block of samples, four columns by lanes / 4 rows, so that it spans few cells:
+// - A vector holds a block of samples, four columns by lanes / 4 rows, so that it spans few cells,
 // at
-//   most three by three while 3 √2 step < 2. The 4 × 4 lattice points around fit one register of 16
-//   lanes (or two of 8), and each lane picks its corners from there.
+//   most three by three. The 4 × 4 lattice points around fit one register of 16 lanes (or two of
+//   8), and each lane picks its corners from there. Octaves so coarse that one such register serves
+//   the whole tile load it once.
 //
 // All arithmetic is by sample, whatever its tile or lane.
 
@@ -41,9 +42,8 @@ namespace wold {
 namespace {
 
 constexpr int tile_columns = 64;
-constexpr int tile_rows = 32;
+constexpr int tile_rows = 64;
 constexpr int tile_samples = tile_columns * tile_rows;
-constexpr float widest_block_step = 0.47F;  // 3 √2 step < 2
 
 /// A rectangle of a grid: the samples and where they lie.
 struct FractalTile {
@@ -69,58 +69,58 @@ int block_rows() {
   return std::max(1, static_cast<int>(hn::Lanes(Floats())) / block_columns);
 }
 
-/// One axis of the lattice place of the samples: a part by column and a part by row, each a cell
-/// (counted from the first of the tile) and a fraction. Fractions of rows stand four times over, as
-/// the lanes of a block want them.
+/// The places of the samples of a tile along one axis of the grid.
+template <std::size_t count>
+std::array<double, count> sample_places(double origin, double step, int first) {
+  std::array<double, count> places;
+  for (std::size_t i = 0; i < count; ++i) places[i] = origin + step * (first + static_cast<int>(i));
+  return places;
+}
+
+constexpr float below_one = 0x1.fffffeP-1F;  // so that two fractions carry once at most
+
+/// One part, by column or by row, of one axis of the lattice place: fraction, and cell counted from
+/// the least.
+template <std::size_t count>
+struct AxisPart {
+  alignas(64) std::array<float, count> fraction;
+  std::array<std::int32_t, count> cell;
+  std::int64_t least = 0;
+  int cells = 0;
+  bool rising = true;
+
+  void set(const std::array<double, count>& places, double along, double shift) {
+    std::array<double, count> below;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double x = along * places[i] + shift;
+      below[i] = std::floor(x);
+      fraction[i] = std::min(static_cast<float>(x - below[i]), below_one);
+    }
+    const auto [low, high] = std::minmax(below.front(), below.back());
+    for (std::size_t i = 0; i < count; ++i) cell[i] = static_cast<std::int32_t>(below[i] - low);
+    least = static_cast<std::int64_t>(low);
+    cells = static_cast<int>(high - low) + 1;
+    rising = places.back() * along >= places.front() * along;
+  }
+};
+
+/// One axis of the lattice place of the samples: (i, j) lies at cell column.cell[i] + row.cell[j]
+/// of the tile, and at the sum of the fractions in it, or one cell on if that reaches 1.
 struct AxisParts {
-  alignas(64) std::array<float, tile_columns> column_fraction;
-  alignas(64) std::array<float, tile_rows * block_columns> row_fraction;
-  std::array<std::int32_t, tile_columns> column_cell;
-  std::array<std::int32_t, tile_rows> row_cell;
-  std::uint32_t first_cell;  // modulo 2^32
-  int cells;                 // under the tile, with the neighbour on the right
-  int least_column;          // where in a block the coordinate is least
-  int least_row;
+  AxisPart<tile_columns> column;
+  AxisPart<tile_rows> row;
 
-  /// Sample (i, j) lies at along_x · x_i + along_y · y_j + shift.
-  void set(const FractalTile& tile, double along_x, double along_y, double shift) {
-    std::array<std::int64_t, tile_columns> column;
-    std::array<std::int64_t, tile_rows> row;
-    for (std::size_t i = 0; i < column.size(); ++i) {
-      const double x = tile.origin.x + tile.step * (tile.column + static_cast<int>(i));
-      column[i] = split(along_x * x, column_fraction[i]);
-    }
-    for (std::size_t j = 0; j < row.size(); ++j) {
-      const double y = tile.origin.y + tile.step * (tile.row + static_cast<int>(j));
-      float fraction = 0;
-      row[j] = split(along_y * y + shift, fraction);
-      std::fill_n(&row_fraction[j * block_columns], block_columns, fraction);
-    }
-    const auto [column_low, column_high] = std::minmax(column.front(), column.back());
-    const auto [row_low, row_high] = std::minmax(row.front(), row.back());
-    first_cell = static_cast<std::uint32_t>(column_low + row_low);
-    cells = static_cast<int>(column_high - column_low + row_high - row_low) + 3;
-    for (std::size_t i = 0; i < column.size(); ++i)
-      column_cell[i] = static_cast<std::int32_t>(column[i] - column_low);
-    for (std::size_t j = 0; j < row.size(); ++j)
-      row_cell[j] = static_cast<std::int32_t>(row[j] - row_low);
-    least_column = along_x * tile.step >= 0 ? 0 : block_columns - 1;
-    least_row = along_y * tile.step >= 0 ? 0 : block_rows() - 1;
-  }
+  std::uint32_t first_cell() const { return static_cast<std::uint32_t>(column.least + row.least); }
+  /// Under the tile: with the carry and the neighbour on the right.
+  int cells() const { return column.cells + row.cells + 1; }
 
-  /// The least cell of the block whose first sample is (i, j).
-  HWY_INLINE int least_cell(int i, int j) const {
-    const auto ci = static_cast<std::size_t>(i + least_column);
-    const auto cj = static_cast<std::size_t>(j + least_row);
-    const float sum = column_fraction[ci] + row_fraction[cj * block_columns];
-    return column_cell[ci] + row_cell[cj] + static_cast<int>(sum >= 1.0F);
-  }
-
- private:
-  static std::int64_t split(double x, float& fraction) {
-    const double below = std::floor(x);
-    fraction = static_cast<float>(x - below);
-    return static_cast<std::int64_t>(below);
+  /// 1 if the least place of the block whose first sample is (i, j) carries.
+  HWY_INLINE int carry(int i, int j, int rows) const {
+    const int least_i = column.rising ? i : i + block_columns - 1;
+    const int least_j = row.rising ? j : j + rows - 1;
+    return static_cast<int>(column.fraction[static_cast<std::size_t>(least_i)] +
+                                row.fraction[static_cast<std::size_t>(least_j)] >=
+                            1.0F);
   }
 };
 
@@ -134,15 +134,15 @@ struct LatticeTable {
     const Unsigneds du;
     const auto lanes = static_cast<int>(hn::Lanes(d));
     constexpr int margin = 2;  // four points are read where two or three are needed
-    stride = (px.cells + margin + lanes - 1) / lanes * lanes;
+    stride = (px.cells() + margin + lanes - 1) / lanes * lanes;
     const auto size =
-        static_cast<std::size_t>(stride) * static_cast<std::size_t>(py.cells + margin);
+        static_cast<std::size_t>(stride) * static_cast<std::size_t>(py.cells() + margin);
     if (x.size() < size) x.resize(size);
     if (y.size() < size) y.resize(size);
-    for (int j = 0; j < py.cells; ++j) {
-      const std::uint32_t row = lattice_line(py.first_cell + static_cast<std::uint32_t>(j), key);
+    for (int j = 0; j < py.cells(); ++j) {
+      const std::uint32_t row = lattice_line(py.first_cell() + static_cast<std::uint32_t>(j), key);
       for (int i = 0; i < stride; i += lanes) {
-        const auto column = hn::Iota(du, px.first_cell + static_cast<std::uint32_t>(i));
+        const auto column = hn::Iota(du, px.first_cell() + static_cast<std::uint32_t>(i));
         const auto hash = HWY_NAMESPACE::lattice_hash(column, row);
         const auto at = static_cast<std::size_t>(j * stride + i);
         if (basis == NoiseBasis::value) {
@@ -162,8 +162,6 @@ struct LatticeTable {
 /// Four by four lattice points in registers; a lane picks point (i, j) by index i + 4 j.
 class PointBlock {
  public:
-  static constexpr bool in_registers = HWY_MAX_BYTES == 64 || HWY_MAX_BYTES == 32;
-
   HWY_INLINE PointBlock(const float* first, int stride) {
 #if HWY_MAX_BYTES == 64
     points_ = hn::Combine(Floats(), two_rows(first + 2 * stride, stride), two_rows(first, stride));
@@ -210,29 +208,105 @@ class PointBlock {
 #endif
 };
 
-/// Lattice points in memory, index i + stride j: for blocks too wide for registers.
-class PointTable {
+/// How the lanes of a block find their lattice points. Each has the points' difference of index by
+/// row, whether blocks count cells from the tile or from their own first cell, and that cell with
+/// or without its carry; `pick(index, i, j)` is the corner (i, j) of the lane's cell.
+
+/// The whole tile lies on 4 × 4 points.
+class TilePoints {
  public:
-  HWY_INLINE PointTable(const float* first, int /*stride*/) : first_(first) {}
-  HWY_INLINE FloatVector pick(SignedVector index) const {
-    return hn::GatherIndex(Floats(), first_, index);
+  static constexpr bool by_block = false;
+  static constexpr bool with_carry = false;
+  static int row_stride(int /*stride*/) { return 4; }
+
+  TilePoints(const float* first, int stride)
+      : points_{{first, stride},
+                {first + 1, stride},
+                {first + stride, stride},
+                {first + stride + 1, stride}} {}
+  HWY_INLINE const TilePoints& at(std::ptrdiff_t /*first*/) const { return *this; }
+  HWY_INLINE FloatVector pick(SignedVector index, int i, int j) const {
+    return points_[i + 2 * j].pick(index);
   }
 
  private:
-  const float* first_;
+  PointBlock points_[4];
 };
 
-/// One lattice cell for all lanes.
-class OneCell {
+/// Every block has its own 4 × 4 points.
+template <bool carry>
+class BlockPoints {
  public:
-  HWY_INLINE OneCell(const float* first, int stride) : first_(first), stride_(stride) {}
-  HWY_INLINE FloatVector pick(int i, int j) const {
-    return hn::Set(Floats(), first_[i + j * stride_]);
+  static constexpr bool by_block = true;
+  static constexpr bool with_carry = carry;
+  static int row_stride(int /*stride*/) { return 4; }
+
+  BlockPoints(const float* first, int stride) : first_(first), stride_(stride) {}
+  struct Picker {
+    PointBlock points;
+    HWY_INLINE FloatVector pick(SignedVector index, int i, int j) const {
+      return points.pick(hn::Add(index, hn::Set(Signeds(), i + 4 * j)));
+    }
+  };
+  HWY_INLINE Picker at(std::ptrdiff_t first) const { return {{first_ + first, stride_}}; }
+
+ private:
+  const float* first_;
+  int stride_;
+};
+
+/// Points in memory: for blocks that span too many cells.
+class FarPoints {
+ public:
+  static constexpr bool by_block = false;
+  static constexpr bool with_carry = false;
+  static int row_stride(int stride) { return stride; }
+
+  FarPoints(const float* first, int stride) : first_(first), stride_(stride) {}
+  HWY_INLINE const FarPoints& at(std::ptrdiff_t /*first*/) const { return *this; }
+  HWY_INLINE FloatVector pick(SignedVector index, int i, int j) const {
+    return hn::GatherIndex(Floats(), first_ + i + j * stride_, index);
   }
 
  private:
   const float* first_;
   int stride_;
+};
+
+/// The cells that the lanes of blocks are in, as indices of their lattice points: a part by column
+/// and a part by row, in floats (exact) above 2^23, so that their lowest bits are the integer.
+struct CellIndices {
+  alignas(64) std::array<float, tile_columns> column;
+  alignas(64) std::array<float, tile_rows * block_columns> row;
+  std::array<std::int32_t, tile_columns / block_columns> column_first;  // of blocks
+  std::array<std::int32_t, tile_rows> row_first;
+
+  void set(const AxisParts& x, const AxisParts& y, bool by_block, int row_stride,
+           int table_stride) {
+    set_part(x.column, y.column, by_block ? block_columns : tile_columns, row_stride, table_stride,
+             column_first.data(),
+             [&](std::size_t i, int index) { column[i] = static_cast<float>(index); });
+    set_part(x.row, y.row, by_block ? block_rows() : tile_rows, row_stride, table_stride,
+             row_first.data(), [&](std::size_t j, int index) {
+               std::fill_n(&row[j * block_columns], block_columns,
+                           0x1p23F + static_cast<float>(index));
+             });
+  }
+
+ private:
+  // Groups of `group` samples count from their own least cells.
+  template <std::size_t count, class Put>
+  static void set_part(const AxisPart<count>& x, const AxisPart<count>& y, int group,
+                       int row_stride, int table_stride, std::int32_t* first, const Put& put) {
+    const auto size = static_cast<std::size_t>(group);
+    for (std::size_t begin = 0; begin < count; begin += size) {
+      const int least_x = std::min(x.cell[begin], x.cell[begin + size - 1]);
+      const int least_y = std::min(y.cell[begin], y.cell[begin + size - 1]);
+      *first++ = least_x + table_stride * least_y;
+      for (std::size_t i = begin; i < begin + size; ++i)
+        put(i, x.cell[i] - least_x + row_stride * (y.cell[i] - least_y));
+    }
+  }
 };
 
 /// The noise and, if asked for, its slope in lattice coordinates.
@@ -245,20 +319,20 @@ struct Fractions {
   FloatVector x, y;
 };
 
-/// pick_x(i, j), pick_y(i, j): the gradient of the lane's corner.
-template <bool with_slope, class PickX, class PickY>
-HWY_INLINE VectorSample gradient_sample(Fractions t, const PickX& pick_x, const PickY& pick_y) {
+template <bool with_slope, class Picker>
+HWY_INLINE VectorSample gradient_sample(Fractions t, const Picker& x, const Picker& y,
+                                        SignedVector index) {
   const auto one = hn::Set(Floats(), 1.0F);
   const auto left = hn::Sub(t.x, one);
   const auto below = hn::Sub(t.y, one);
-  const auto x00 = pick_x(0, 0);
-  const auto x10 = pick_x(1, 0);
-  const auto x01 = pick_x(0, 1);
-  const auto x11 = pick_x(1, 1);
-  const auto y00 = pick_y(0, 0);
-  const auto y10 = pick_y(1, 0);
-  const auto y01 = pick_y(0, 1);
-  const auto y11 = pick_y(1, 1);
+  const auto x00 = x.pick(index, 0, 0);
+  const auto x10 = x.pick(index, 1, 0);
+  const auto x01 = x.pick(index, 0, 1);
+  const auto x11 = x.pick(index, 1, 1);
+  const auto y00 = y.pick(index, 0, 0);
+  const auto y10 = y.pick(index, 1, 0);
+  const auto y01 = y.pick(index, 0, 1);
+  const auto y11 = y.pick(index, 1, 1);
   const auto n00 = hn::MulAdd(x00, t.x, hn::Mul(y00, t.y));
   const auto n10 = hn::MulAdd(x10, left, hn::Mul(y10, t.y));
   const auto n01 = hn::MulAdd(x01, t.x, hn::Mul(y01, below));
@@ -277,13 +351,12 @@ HWY_INLINE VectorSample gradient_sample(Fractions t, const PickX& pick_x, const 
   return n;
 }
 
-/// pick(i, j): the value of the lane's corner.
-template <bool with_slope, class Pick>
-HWY_INLINE VectorSample value_sample(Fractions t, const Pick& pick) {
-  const auto a00 = pick(0, 0);
-  const auto a10 = pick(1, 0);
-  const auto a01 = pick(0, 1);
-  const auto a11 = pick(1, 1);
+template <bool with_slope, class Picker>
+HWY_INLINE VectorSample value_sample(Fractions t, const Picker& a, SignedVector index) {
+  const auto a00 = a.pick(index, 0, 0);
+  const auto a10 = a.pick(index, 1, 0);
+  const auto a01 = a.pick(index, 0, 1);
+  const auto a11 = a.pick(index, 1, 1);
   const auto u = fade(t.x);
   const auto v = fade(t.y);
   const auto low = lerp(a00, a10, u);
@@ -295,6 +368,14 @@ HWY_INLINE VectorSample value_sample(Fractions t, const Pick& pick) {
     n.slope_y = hn::Mul(fade_slope(t.y), hn::Sub(high, low));
   }
   return n;
+}
+
+/// The vector of a block whose lanes in row r are all values[r].
+HWY_INLINE FloatVector each_four(const float* values) {
+  alignas(64) std::array<float, HWY_MAX_BYTES / sizeof(float) + block_columns> lanes;
+  for (int r = 0; r < block_rows(); ++r)
+    std::fill_n(&lanes[static_cast<std::size_t>(r * block_columns)], block_columns, values[r]);
+  return hn::Load(Floats(), lanes.data());
 }
 
 /// What the samples of a tile have gathered, block after block.
@@ -362,9 +443,14 @@ HWY_INLINE void add_term(const Term& term, VectorSample n, Sums& sums, std::size
 class FractalTileFill {
  public:
   FractalTileFill(const FractalTile& tile, const FractalSampler& sampler)
-      : tile_(tile), sampler_(sampler), f_(sampler.parameters()) {
+      : tile_(tile),
+        sampler_(sampler),
+        f_(sampler.parameters()),
+        column_places_(sample_places<tile_columns>(tile.origin.x, tile.step, tile.column)),
+        row_places_(sample_places<tile_rows>(tile.origin.y, tile.step, tile.row)) {
     sums_.total.fill(0);
-    sums_.w.fill(1);
+    if (f_.kind == FractalKind::hybrid || f_.kind == FractalKind::ridged) sums_.w.fill(1);
+    if (f_.kind != FractalKind::eroded) return;
     sums_.slope_x.fill(0);
     sums_.slope_y.fill(0);
   }
@@ -395,103 +481,99 @@ class FractalTileFill {
   void add_octave(int i) {
     const FractalSampler::Octave& octave = sampler_.octave(i);
     const DMat2& m = octave.matrix2;
-    x_.set(tile_, m[0][0], m[1][0], octave.shift2.x);
-    y_.set(tile_, m[0][1], m[1][1], octave.shift2.y);
+    x_.column.set(column_places_, m[0][0], 0);
+    x_.row.set(row_places_, m[1][0], octave.shift2.x);
+    y_.column.set(column_places_, m[0][1], 0);
+    y_.row.set(row_places_, m[1][1], octave.shift2.y);
     lattice_.set(x_, y_, basis, octave.key);
     const float spacing = static_cast<float>(std::abs(tile_.step)) * octave.frequency;
     const Term term{&f_, octave.amplitude, octave_weight(spacing), Mat2(m)};
-    if (spacing <= widest_block_step)
-      add_blocks<basis, kind, PointBlock>(term, block_columns);
+    // Blocks span 3 √2 spacing, and count from up to one cell less without carry.
+    if (x_.cells() <= 4 && y_.cells() <= 4)
+      add_blocks<basis, kind, TilePoints>(term);
+    else if (spacing < 0.23F)
+      add_blocks<basis, kind, BlockPoints<false>>(term);
+    else if (spacing < 0.47F)
+      add_blocks<basis, kind, BlockPoints<true>>(term);
     else
-      add_blocks<basis, kind, PointTable>(term, lattice_.stride);
+      add_blocks<basis, kind, FarPoints>(term);
   }
 
-  // `stride` is the difference of indices between rows of lattice points, for Points.
   template <NoiseBasis basis, FractalKind kind, class Points>
-  void add_blocks(const Term& term, int stride) {
-    std::array<std::int32_t, tile_columns> column_index;
-    std::array<std::int32_t, tile_rows * block_columns> row_index;
-    for (std::size_t i = 0; i < column_index.size(); ++i)
-      column_index[i] = x_.column_cell[i] + stride * y_.column_cell[i];
-    for (std::size_t j = 0; j < tile_rows; ++j)
-      std::fill_n(&row_index[j * block_columns], block_columns,
-                  x_.row_cell[j] + stride * y_.row_cell[j]);
+  void add_blocks(const Term& term) {
     const Floats d;
     const Signeds di;
+    constexpr bool with_slope = kind == FractalKind::eroded;
     const int rows = block_rows();
+    const int stride = lattice_.stride;
+    const int row_stride = Points::row_stride(stride);
+    const Points points_x(lattice_.x.data(), stride);
+    const Points points_y(lattice_.y.data(), stride);
+    indices_.set(x_, y_, Points::by_block, row_stride, stride);
     std::size_t at = 0;
     for (int j = 0; j < tile_.out.height(); j += rows) {
-      const auto row_lane = static_cast<std::size_t>(j * block_columns);
-      const auto row_x = hn::LoadU(d, &x_.row_fraction[row_lane]);
-      const auto row_y = hn::LoadU(d, &y_.row_fraction[row_lane]);
-      const auto row_cells = hn::LoadU(di, &row_index[row_lane]);
+      const auto lane = static_cast<std::size_t>(j * block_columns);
+      const auto row_x = each_four(&x_.row.fraction[static_cast<std::size_t>(j)]);
+      const auto row_y = each_four(&y_.row.fraction[static_cast<std::size_t>(j)]);
+      const auto row_index = hn::LoadU(d, &indices_.row[lane]);
+      const std::int32_t row_first =
+          Points::by_block ? indices_.row_first[static_cast<std::size_t>(j / rows)] : 0;
       for (int i = 0; i < tile_.out.width(); i += block_columns, at += hn::Lanes(d)) {
         const auto ci = static_cast<std::size_t>(i);
-        const auto one = hn::Set(d, 1.0F);
-        Fractions t{hn::Add(hn::LoadDup128(d, &x_.column_fraction[ci]), row_x),
-                    hn::Add(hn::LoadDup128(d, &y_.column_fraction[ci]), row_y)};
-        const auto carry_x = hn::Ge(t.x, one);
-        const auto carry_y = hn::Ge(t.y, one);
-        t.x = hn::Sub(t.x, hn::IfThenElseZero(carry_x, one));
-        t.y = hn::Sub(t.y, hn::IfThenElseZero(carry_y, one));
-        auto index = hn::Add(hn::LoadDup128(di, &column_index[ci]), row_cells);
-        index = hn::Add(index, hn::IfThenElseZero(hn::RebindMask(di, carry_x), hn::Set(di, 1)));
-        index =
-            hn::Add(index, hn::IfThenElseZero(hn::RebindMask(di, carry_y), hn::Set(di, stride)));
-        const int first_x = x_.least_cell(i, j);
-        const int first_y = y_.least_cell(i, j);
-        index = hn::Sub(index, hn::Set(di, first_x + stride * first_y));
-        const std::ptrdiff_t first = first_x + std::ptrdiff_t{lattice_.stride} * first_y;
-        const VectorSample n = hn::AllTrue(di, hn::Eq(index, hn::Zero(di)))
-                                   ? sample_cell<basis, kind>(t, first)
-                                   : sample_block<basis, kind, Points>(t, first, index, stride);
+        Fractions t{hn::Add(hn::LoadDup128(d, &x_.column.fraction[ci]), row_x),
+                    hn::Add(hn::LoadDup128(d, &y_.column.fraction[ci]), row_y)};
+        const Fractions carry{hn::Floor(t.x), hn::Floor(t.y)};
+        t.x = hn::Sub(t.x, carry.x);
+        t.y = hn::Sub(t.y, carry.y);
+        auto index = hn::Add(hn::LoadDup128(d, &indices_.column[ci]), row_index);
+        std::ptrdiff_t first = 0;
+        if constexpr (Points::by_block)
+          first = row_first + indices_.column_first[ci / block_columns];
+        if constexpr (Points::with_carry) {
+          const int carry_x = x_.carry(i, j, rows);
+          const int carry_y = y_.carry(i, j, rows);
+          first += carry_x + stride * carry_y;
+          index = hn::Sub(index, hn::Set(d, static_cast<float>(carry_x + row_stride * carry_y)));
+        }
+        index = hn::Add(index,
+                        hn::MulAdd(carry.y, hn::Set(d, static_cast<float>(row_stride)), carry.x));
+        const auto corner = hn::And(hn::BitCast(di, index), hn::Set(di, 0x3fffff));
+        VectorSample n;
+        if constexpr (basis == NoiseBasis::value)
+          n = value_sample<with_slope>(t, points_x.at(first), corner);
+        else
+          n = gradient_sample<with_slope>(t, points_x.at(first), points_y.at(first), corner);
         add_term<kind>(term, n, sums_, at);
       }
     }
   }
 
-  template <NoiseBasis basis, FractalKind kind>
-  HWY_INLINE VectorSample sample_cell(Fractions t, std::ptrdiff_t first) const {
-    constexpr bool with_slope = kind == FractalKind::eroded;
-    const OneCell x(lattice_.x.data() + first, lattice_.stride);
-    const OneCell y(lattice_.y.data() + first, lattice_.stride);
-    const auto pick_x = [&](int i, int j) HWY_ATTR { return x.pick(i, j); };
-    if constexpr (basis == NoiseBasis::value) return value_sample<with_slope>(t, pick_x);
-    const auto pick_y = [&](int i, int j) HWY_ATTR { return y.pick(i, j); };
-    return gradient_sample<with_slope>(t, pick_x, pick_y);
-  }
-
-  template <NoiseBasis basis, FractalKind kind, class Points>
-  HWY_INLINE VectorSample sample_block(Fractions t, std::ptrdiff_t first, SignedVector index,
-                                       int stride) const {
-    constexpr bool with_slope = kind == FractalKind::eroded;
-    const auto corner = [&](int i, int j)
-                            HWY_ATTR { return hn::Add(index, hn::Set(Signeds(), i + stride * j)); };
-    const Points x(lattice_.x.data() + first, lattice_.stride);
-    const auto pick_x = [&](int i, int j) HWY_ATTR { return x.pick(corner(i, j)); };
-    if constexpr (basis == NoiseBasis::value) return value_sample<with_slope>(t, pick_x);
-    const Points y(lattice_.y.data() + first, lattice_.stride);
-    const auto pick_y = [&](int i, int j) HWY_ATTR { return y.pick(corner(i, j)); };
-    return gradient_sample<with_slope>(t, pick_x, pick_y);
-  }
-
   void write() const {
+    const hn::FixedTag<float, block_columns> four;
     const int rows = block_rows();
-    std::size_t at = 0;
-    for (int j = 0; j < tile_.out.height(); j += rows)
-      for (int i = 0; i < tile_.out.width(); i += block_columns)
-        for (int r = 0; r < rows; ++r, at += block_columns) {
-          if (j + r >= tile_.out.height()) continue;
-          const auto count = std::min(block_columns, tile_.out.width() - i);
-          std::copy_n(&sums_.total[at], count, &tile_.out(i, j + r));
-        }
+    const int width = tile_.out.width();
+    const int whole = width - width % block_columns;
+    const auto lanes = static_cast<std::size_t>(rows * block_columns);
+    const auto blocks = static_cast<std::size_t>((width + block_columns - 1) / block_columns);
+    for (int j = 0; j < tile_.out.height(); ++j) {
+      const auto block_row = static_cast<std::size_t>(j / rows) * blocks * lanes;
+      const float* from =
+          &sums_.total[block_row + static_cast<std::size_t>(j % rows) * block_columns];
+      float* to = tile_.out.row(j).data();
+      for (int i = 0; i < whole; i += block_columns, from += lanes)
+        hn::StoreU(hn::LoadU(four, from), four, to + i);
+      std::copy_n(from, width - whole, to + whole);
+    }
   }
 
   FractalTile tile_;
   const FractalSampler& sampler_;
   const Fractal& f_;
+  std::array<double, tile_columns> column_places_;
+  std::array<double, tile_rows> row_places_;
   AxisParts x_, y_;
   LatticeTable lattice_;
+  CellIndices indices_;
   Sums sums_;
 };
 
