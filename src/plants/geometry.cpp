@@ -19,6 +19,15 @@ enum class Draw : std::uint8_t { thinning = 64, roots };
 /// More than any plant needs; 3 GB of vertices.
 constexpr std::int64_t max_triangles = 30'000'000;
 
+float top_of(const Skeleton& skeleton) {
+  float top = 0;
+  for (const auto& axis : skeleton.axes)
+    for (const auto& node : axis.nodes) top = std::max(top, node.position.z);
+  for (const auto& polygon : skeleton.polygons)
+    for (const Vec3& v : polygon.vertices) top = std::max(top, v.z);
+  return top;
+}
+
 /// Triangles collected by material.
 class PartList {
  public:
@@ -49,13 +58,14 @@ class PartList {
 class PlantBuilder {
  public:
   PlantBuilder(const Skeleton& skeleton, const GeometrySettings& geometry,
-               const std::vector<Organ>& organs, const BuildSettings& settings, float scale,
+               const std::vector<Organ>& organs, const BuildSettings& settings,
                Progress& progress)
       : skeleton_(skeleton),
         geometry_(geometry),
         organs_(organs),
         settings_(settings),
-        scale_(scale),
+        top_(top_of(skeleton)),
+        scale_(settings.height > 0 && top_ > 0 ? settings.height / top_ : 1.0F),
         progress_(progress) {
     continued_.assign(skeleton.axes.size(), false);
     for (const Skeleton::Axis& axis : skeleton.axes) {
@@ -94,9 +104,7 @@ class PlantBuilder {
     if (widest <= 0) return;
     const float world_radius = widest * scale_;
     BranchStyle style;
-    style.tolerance =
-        (0.08F * widest + 0.003F / std::max(scale_, 1e-9F)) / std::max(settings_.detail, 1e-3F);
-    style.tolerance = std::min(style.tolerance, 0.5F * widest + 0.003F / scale_);
+    style.tolerance = (0.08F * widest + 0.0006F * top_) / settings_.detail;
     style.sides = sides(world_radius);
     style.pointed =
         !continued_[a] && (axis.nodes.back().radius < 0.4F * widest || geometry_.twig_radius > 0);
@@ -187,22 +195,14 @@ class PlantBuilder {
   const GeometrySettings& geometry_;
   const std::vector<Organ>& organs_;
   const BuildSettings& settings_;
-  float scale_;
+  float top_;    // highest point without organs, turtle's units
+  float scale_;  // metres per turtle's unit, but for organs above the top
   Progress& progress_;
   TriangleMesh mesh_;
   PartList parts_;
   std::vector<bool> continued_;  // axes that another goes on from at their end
   std::vector<TriangleMesh> organ_meshes_;
 };
-
-float top_of(const Skeleton& skeleton) {
-  float top = 0;
-  for (const auto& axis : skeleton.axes)
-    for (const auto& node : axis.nodes) top = std::max(top, node.position.z);
-  for (const auto& polygon : skeleton.polygons)
-    for (const Vec3& v : polygon.vertices) top = std::max(top, v.z);
-  return top;
-}
 
 /// Scales to a height exactly.
 void scale_to(TriangleMesh& mesh, float height) {
@@ -235,9 +235,7 @@ TriangleMesh build_mesh(Skeleton skeleton, const GeometrySettings& geometry,
   const bool by_radius = geometry.twig_radius <= 0;
   continue_axes(skeleton, by_radius);
   if (!by_radius) set_radii(skeleton, geometry.twig_radius, settings.foot_radius);
-  const float top = top_of(skeleton);
-  const float scale = settings.height > 0 && top > 0 ? settings.height / top : 1.0F;
-  TriangleMesh mesh = PlantBuilder(skeleton, geometry, organs, settings, scale, progress).build();
+  TriangleMesh mesh = PlantBuilder(skeleton, geometry, organs, settings, progress).build();
   if (settings.height > 0) scale_to(mesh, settings.height);
   return mesh;
 }
