@@ -5,7 +5,7 @@
 // Cook 1986): candidates fall at random places in random order, larger kinds first, and one stays
 // if its disc touches none that stays already. Kind i then reaches the density κ_i · a_i, κ_i the
 // density of candidates and a_i the mean chance to find room, which depends on all kinds. This plan
-// finds κ by trial on a patch of a few thousand plants: κ_i ← λ_i / a_i(κ), until it settles. The
+// finds κ by trial on a patch of some thousand plants: κ_i ← λ_i / a_i(κ), until it settles. The
 // same for 1/4, 1/2 and 3/4 of the density, for places where fewer are wished.
 //
 // Equal discs jam at 54.7 % of the area; what cannot be reached is reached as far as
@@ -23,10 +23,10 @@ struct DiscKind {
   double wished = 0;      ///< plants per m²
   double reached = 0;     ///< plants per m², where everything suits
   double candidates = 0;  ///< per m²
-  /// Share of the candidates to use for 0, 1/4, 1/2, 3/4 and all of the wished density.
-  std::array<double, 5> share{};
+  /// Candidates per plant at 0, 1/4, 1/2, 3/4 and all of the wished density, against the last.
+  std::array<double, 5> crowding{};
 
-  /// Between the five.
+  /// The share of the candidates to use for a part of the wished density.
   double share_for(double part) const;
 };
 
