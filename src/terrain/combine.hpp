@@ -17,7 +17,7 @@ enum class CombineMethod {
 };
 
 struct Combine {
-  std::string with;
+  std::string with = {};
   CombineMethod method = CombineMethod::smooth_max;
   float scale = 1;      ///< of the other
   float softness = 50;  ///< m

@@ -9,7 +9,7 @@ struct HybridGround {
   FractalShape shape{.height = 600, .base = 0, .feature_size = 2000};
   int octaves = 14;
   float lacunarity = 2.03F;
-  float hurst = 0.9F;
+  float hurst = 0.25F;
   float offset = 0.7F;
 };
 

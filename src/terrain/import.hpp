@@ -22,8 +22,8 @@ enum class PictureValues {
 };
 
 struct Import {
-  FilePath file;
-  std::string channel;
+  FilePath file = {};
+  std::string channel = {};
   Range height{0, 1000};  ///< m
   PictureValues values = PictureValues::automatic;
   Transfer transfer = Transfer::as_stored;

@@ -22,8 +22,8 @@ struct Mask {
   float feature_size = 400;      ///< m, of patches
   float coverage = 0.4F;         ///< part of the ground that patches cover
   float edge = 0.15F;            ///< softness of the edge of patches
-  FilePath picture;
-  std::string channel;
+  FilePath picture = {};
+  std::string channel = {};
   float smooth = 0;  ///< m
   bool invert = false;
 };

@@ -7,9 +7,9 @@
 namespace wold {
 
 struct Warp {
-  float distance = 150;      ///< m, how far at most
-  float feature_size = 800;  ///< m, size of the bends
-  int octaves = 3;
+  float distance = 100;       ///< m, how far at most
+  float feature_size = 1000;  ///< m, size of the bends
+  int octaves = 2;
 };
 
 Description<Warp> describe(const Warp&);
