@@ -11,6 +11,7 @@ namespace wold {
 struct Session;
 
 void add_render(CLI::App& app, Session& session);
+void add_terrain(CLI::App& app, Session& session);
 void add_check(CLI::App& app, Session& session);
 void add_new(CLI::App& app, Session& session);
 void add_help(CLI::App& app, Session& session);

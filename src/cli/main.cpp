@@ -59,6 +59,7 @@ int run(int argc, char** argv) {
   wold::Session session;
   session.interrupted = &interrupted;
   wold::add_render(app, session);
+  wold::add_terrain(app, session);
   wold::add_check(app, session);
   wold::add_new(app, session);
   wold::add_help(app, session);
