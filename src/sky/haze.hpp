@@ -3,12 +3,13 @@
 //
 //   L = L_surface · T + J · (1 - T)
 //   T = exp(-Σ β · ∫ e^(-h(s) / H) ds)          per colour, over molecules and aerosol
-//   J = L_sky(direction) / (1 - T_whole path)    the light that the air sends to the eye
+//   J = L_sky(direction) / (1 - T_whole path)    the light that the air sends to the eye, by the
+//                                                whole path up from height 0
 //
 // β are extinction coefficients at height 0, 1/m. Molecules: 5.8, 13.5, 33.1 e-6 /m at 680, 550,
 // 440 nm with H = 8 km (Nishita et al. 1993). Aerosol: what is missing to the visibility V, since
 // β(550 nm) = 3.912 / V (Koschmieder: 2 % contrast left), with colour λ^-q, q by Kruse et al. 1962.
-// J is chosen so that a surface infinitely far away looks exactly like the sky in that direction
+// J is chosen so that what is infinitely far away looks exactly like the sky in that direction
 // (the horizon in that direction, for one below it), so the edge of the world dissolves.
 // Left out: shadows in the air, and change of J along the path.
 

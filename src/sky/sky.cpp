@@ -103,13 +103,35 @@ struct Choice {
   float along = 0;
 };
 
-Choice choose(std::span<const float> cumulative, float u) {
-  const auto found = std::upper_bound(cumulative.begin(), cumulative.end() - 1, u);
-  const auto index = static_cast<std::size_t>(found - cumulative.begin());
+/// `guide[g]`: the first element that may hold numbers from g / guide.size() up.
+Choice choose(std::span<const float> cumulative, std::span<const std::uint16_t> guide, float u) {
+  std::size_t index = guide[static_cast<std::size_t>(u * static_cast<float>(guide.size()))];
+  while (cumulative[index] <= u && index + 1 < cumulative.size()) ++index;
   const float low = index > 0 ? cumulative[index - 1] : 0;
   const float width = cumulative[index] - low;
   const float along = width > 0 ? (u - low) / width : 0;
   return {static_cast<int>(index), std::clamp(along, 0.0F, 0x1.fffffep-1F)};
+}
+
+void fill_guide(std::span<const float> cumulative, std::span<std::uint16_t> guide) {
+  std::size_t index = 0;
+  for (std::size_t g = 0; g < guide.size(); ++g) {
+    const float u = static_cast<float>(g) / static_cast<float>(guide.size());
+    while (cumulative[index] <= u && index + 1 < cumulative.size()) ++index;
+    guide[g] = static_cast<std::uint16_t>(index);
+  }
+}
+
+Vec3 interpolated(const Grid<Vec3>& nodes, Vec3 direction) {
+  const TablePlace place = place_of(direction);
+  const int i = std::min(static_cast<int>(place.column), columns - 1);
+  const int j = std::min(static_cast<int>(place.row), cell_rows - 1);
+  const float x = place.column - static_cast<float>(i);
+  const float y = place.row - static_cast<float>(j);
+  const int next = i + 1 == columns ? 0 : i + 1;
+  const Vec3 below = glm::mix(nodes(i, j), nodes(next, j), x);
+  const Vec3 above = glm::mix(nodes(i, j + 1), nodes(next, j + 1), x);
+  return glm::mix(below, above, y);
 }
 
 }  // namespace
@@ -144,6 +166,7 @@ Sky::Sky(const SkySettings& settings) {
   if (settings.haze) haze_ = Haze(settings.visibility, settings.haze_height);
   set_sun(settings);
   fill_table(settings);
+  fill_air();
   build_distribution();
 }
 
@@ -225,6 +248,20 @@ void Sky::fill_table(const SkySettings& settings) {
   });
 }
 
+void Sky::fill_air() {
+  if (!haze_.enabled()) return;
+  air_ = nodes_;
+  constexpr int horizon = cell_rows / 2;
+  parallel_for(0, cell_rows + 1, [&](int j) {
+    const float sine = row_sine_[static_cast<std::size_t>(j)];
+    const Vec3 upwards{std::sqrt(std::max(0.0F, 1 - sine * sine)), 0, sine};
+    const Vec3 whole = haze_.transmittance(Vec3(0), upwards, INFINITY);
+    for (int i = 0; i < columns; ++i)
+      air_(i, j) =
+          j <= horizon ? nodes_(i, horizon) : nodes_(i, j) / glm::max(Vec3(1) - whole, Vec3(1e-4F));
+  });
+}
+
 DVec3 Sky::cell_mean(int i, int j) const {
   const int next = (i + 1) % columns;
   return 0.25 * (DVec3(nodes_(i, j)) + DVec3(nodes_(next, j)) + DVec3(nodes_(i, j + 1)) +
@@ -235,6 +272,8 @@ void Sky::build_distribution() {
   cell_pdf_ = Grid<float>(columns, cell_rows);
   cells_cumulative_ = Grid<float>(columns, cell_rows);
   rows_cumulative_.resize(cell_rows);
+  row_guide_.resize(cell_rows);
+  cell_guide_ = Grid<std::uint16_t>(columns / 2, cell_rows);
   std::vector<double> row_weight(cell_rows);
   double total = 0;
   for (int j = 0; j < cell_rows; ++j) {
@@ -251,6 +290,7 @@ void Sky::build_distribution() {
     total += row_weight[row];
     for (float& c : cells_cumulative_.row(j)) c = sum > 0 ? c / static_cast<float>(sum) : 0;
     cells_cumulative_(columns - 1, j) = 1;
+    fill_guide(cells_cumulative_.row(j), cell_guide_.row(j));
   }
   double sum = 0;
   for (std::size_t j = 0; j < rows_cumulative_.size(); ++j) {
@@ -258,24 +298,17 @@ void Sky::build_distribution() {
     rows_cumulative_[j] = total > 0 ? static_cast<float>(sum / total) : 0;
   }
   rows_cumulative_.back() = 1;
+  fill_guide(rows_cumulative_, row_guide_);
   for (float& pdf : cell_pdf_.values()) pdf = total > 0 ? static_cast<float>(pdf / total) : 0;
 }
 
 Vec3 Sky::radiance(Vec3 direction) const {
-  const TablePlace place = place_of(direction);
-  const int i = std::min(static_cast<int>(place.column), columns - 1);
-  const int j = std::min(static_cast<int>(place.row), cell_rows - 1);
-  const float x = place.column - static_cast<float>(i);
-  const float y = place.row - static_cast<float>(j);
-  const int next = i + 1 == columns ? 0 : i + 1;
-  const Vec3 below = glm::mix(nodes_(i, j), nodes_(next, j), x);
-  const Vec3 above = glm::mix(nodes_(i, j + 1), nodes_(next, j + 1), x);
-  return glm::mix(below, above, y);
+  return interpolated(nodes_, direction);
 }
 
 SkySample Sky::sample_sky(Vec2 u) const {
-  const Choice row = choose(rows_cumulative_, u.y);
-  const Choice cell = choose(cells_cumulative_.row(row.index), u.x);
+  const Choice row = choose(rows_cumulative_, row_guide_, u.y);
+  const Choice cell = choose(cells_cumulative_.row(row.index), cell_guide_.row(row.index), u.x);
   const auto j = static_cast<std::size_t>(row.index);
   const float sine = row_sine_[j] + row.along * (row_sine_[j + 1] - row_sine_[j]);
   const auto i = static_cast<std::size_t>(cell.index);
@@ -329,14 +362,7 @@ float Sky::sun_pdf(Vec3 direction) const {
 Vec3 Sky::through_haze(Vec3 surface_radiance, Vec3 origin, Vec3 direction, float distance) const {
   if (!haze_.enabled()) return surface_radiance;
   const Vec3 passed = haze_.transmittance(origin, direction, distance);
-  Vec3 air;
-  if (direction.z > 0) {
-    const Vec3 whole = haze_.transmittance(origin, direction, INFINITY);
-    air = radiance(direction) / glm::max(Vec3(1) - whole, Vec3(1e-4F));
-  } else {
-    const float level = std::hypot(direction.x, direction.y);
-    air = radiance(level > 0 ? Vec3(direction.x / level, direction.y / level, 0) : Vec3(1, 0, 0));
-  }
+  const Vec3 air = interpolated(air_, direction);
   return surface_radiance * passed + air * (Vec3(1) - passed);
 }
 

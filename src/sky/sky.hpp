@@ -13,6 +13,7 @@
 // measured clear skies are (IES), and dims further as the sun sinks below 10°, through twilight as
 // measured down to a dark blue night; `sky_intensity` changes it.
 
+#include <cstdint>
 #include <vector>
 
 #include "base/grid.hpp"
@@ -85,6 +86,7 @@ class Sky {
  private:
   void set_sun(const SkySettings& settings);
   void fill_table(const SkySettings& settings);
+  void fill_air();
   void build_distribution();
   DVec3 cell_mean(int i, int j) const;
 
@@ -100,12 +102,15 @@ class Sky {
   bool sun_visible_ = false;
 
   // Nodes in columns by azimuth and rows by elevation; a cell lies between four nodes.
-  Grid<Vec3> nodes_;                    // cd/m²
-  std::vector<float> column_azimuth_;   // radians from east to north
-  std::vector<float> row_sine_;         // of the elevation of each row of nodes
-  std::vector<float> rows_cumulative_;  // probability of the rows of cells up to and with this
-  Grid<float> cells_cumulative_;        // the same of the cells of one row
-  Grid<float> cell_pdf_;                // 1/sr
+  Grid<Vec3> nodes_;                      // cd/m²
+  std::vector<float> column_azimuth_;     // radians from east to north
+  std::vector<float> row_sine_;           // of the elevation of each row of nodes
+  std::vector<float> rows_cumulative_;    // probability of the rows of cells up to and with this
+  Grid<float> cells_cumulative_;          // the same of the cells of one row
+  Grid<float> cell_pdf_;                  // 1/sr
+  std::vector<std::uint16_t> row_guide_;  // where to begin to search in rows_cumulative_
+  Grid<std::uint16_t> cell_guide_;        // and in each row of cells_cumulative_
+  Grid<Vec3> air_;                        // J of haze.hpp at the nodes, cd/m²
   Vec3 sky_irradiance_{0};
   Haze haze_;
 };

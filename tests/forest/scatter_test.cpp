@@ -213,14 +213,14 @@ TEST(Scatter, IsBlueNoise) {
   ScatterSettings settings = mixed();
   settings.species = {{"fern", 1}};
   settings.density = 0.05;
-  const auto plants = scattered(flat(500), settings);
+  const auto plants = scattered(flat(360), settings);
   const double spacing = jamming_distance(0.05);
   constexpr int bins = 12;
   double pairs[bins] = {};
   const double width = 3 * spacing / bins;
   int inner = 0;
   for (const Instance& a : plants) {
-    if (std::max(std::abs(a.position.x), std::abs(a.position.y)) > 230) continue;
+    if (std::max(std::abs(a.position.x), std::abs(a.position.y)) > 160) continue;
     ++inner;
     for (const Instance& b : plants) {
       const double d = std::hypot(static_cast<double>(a.position.x - b.position.x),
@@ -230,7 +230,7 @@ TEST(Scatter, IsBlueNoise) {
   }
   for (int k = 0; k < bins; ++k) {
     const double ring = pi_d * width * width * (2 * k + 1);
-    const double g = pairs[k] / (inner * ring * density_of(plants, 500));
+    const double g = pairs[k] / (inner * ring * density_of(plants, 360));
     const double from = k * width / spacing;
     if (from + 3.0 / bins < 0.7) {
       EXPECT_EQ(g, 0) << from;
@@ -239,21 +239,18 @@ TEST(Scatter, IsBlueNoise) {
       EXPECT_NEAR(g, 1, 0.06) << from;
     }
   }
-  // Variance of counts in squares of 10 spacings: far below the mean, which a random field would
-  // have.
-  const double square = 25;
-  double sum = 0, sum_2 = 0;
-  std::vector<double> count(400);
+  // Variance of counts in squares: far below the mean, which a random field would have.
+  constexpr int squares = 15;
+  std::vector<double> count(squares * squares);
   for (const Instance& p : plants) {
-    const int i =
-        std::min(19, static_cast<int>((static_cast<double>(p.position.x) + 250) / square));
-    const int j =
-        std::min(19, static_cast<int>((static_cast<double>(p.position.y) + 250) / square));
-    count[static_cast<std::size_t>(j * 20 + i)] += 1;
+    const int i = std::min(squares - 1, static_cast<int>((p.position.x + 180) / 24));
+    const int j = std::min(squares - 1, static_cast<int>((p.position.y + 180) / 24));
+    count[static_cast<std::size_t>(j * squares + i)] += 1;
   }
+  double sum = 0, sum_2 = 0;
   for (const double c : count) sum += c, sum_2 += c * c;
-  const double mean = sum / 400;
-  EXPECT_LT(sum_2 / 400 - mean * mean, 0.45 * mean);
+  const double mean = sum / (squares * squares);
+  EXPECT_LT(sum_2 / (squares * squares) - mean * mean, 0.45 * mean);
 }
 
 TEST(Scatter, SpeciesFormGroups) {
