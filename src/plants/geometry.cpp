@@ -58,8 +58,7 @@ class PartList {
 class PlantBuilder {
  public:
   PlantBuilder(const Skeleton& skeleton, const GeometrySettings& geometry,
-               const std::vector<Organ>& organs, const BuildSettings& settings,
-               Progress& progress)
+               const std::vector<Organ>& organs, const BuildSettings& settings, Progress& progress)
       : skeleton_(skeleton),
         geometry_(geometry),
         organs_(organs),
@@ -104,7 +103,9 @@ class PlantBuilder {
     if (widest <= 0) return;
     const float world_radius = widest * scale_;
     BranchStyle style;
-    style.tolerance = (0.08F * widest + 0.0006F * top_) / settings_.detail;
+    // What a plant that fills a picture of 1000 lines hides, and no less than 1.5 mm.
+    const float hidden = std::max(0.0006F * top_, 0.0015F / scale_);
+    style.tolerance = (0.08F * widest + hidden) / settings_.detail;
     style.sides = sides(world_radius);
     style.pointed =
         !continued_[a] && (axis.nodes.back().radius < 0.4F * widest || geometry_.twig_radius > 0);
@@ -112,7 +113,10 @@ class PlantBuilder {
       style.sink = geometry_.sink;
       style.flare = geometry_.flare;
       style.seed = random_bits(settings_.seed, Draw::roots, a);
-      if (style.flare > 0) style.sides = std::max(style.sides, 2 * style.sides - 6);
+      if (style.flare > 0) {
+        style.sides = std::max(style.sides, 2 * style.sides - 6);
+        style.tolerance = std::min(style.tolerance, 0.02F * widest / settings_.detail);
+      }
     }
     const std::size_t first = mesh_.uvs.size();
     add_branch(mesh_, axis.nodes, style);
