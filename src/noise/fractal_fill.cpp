@@ -1,4 +1,4 @@
-// Fractals over a grid, by tiles of 64 × 64 samples.
+// Fractals over a grid, by tiles of 128 × 64 samples.
 //
 // The lattice of every octave is turned, so no coordinate is constant along a row. What can be
 // shared:
@@ -33,17 +33,12 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "noise/lattice-inl.hpp"
-#include "noise/noise_cell.hpp"
+#include "noise/tile_lattice-inl.hpp"
 
 #ifndef WOLD_FRACTAL_FILL_TILE
 #define WOLD_FRACTAL_FILL_TILE
 namespace wold {
 namespace {
-
-constexpr int tile_columns = 64;
-constexpr int tile_rows = 64;
-constexpr int tile_samples = tile_columns * tile_rows;
 
 /// A rectangle of a grid: the samples and where they lie.
 struct FractalTile {
@@ -62,252 +57,6 @@ struct FractalTile {
 HWY_BEFORE_NAMESPACE();
 namespace wold::HWY_NAMESPACE {
 namespace {
-
-constexpr int block_columns = 4;
-
-int block_rows() {
-  return std::max(1, static_cast<int>(hn::Lanes(Floats())) / block_columns);
-}
-
-/// The places of the samples of a tile along one axis of the grid.
-template <std::size_t count>
-std::array<double, count> sample_places(double origin, double step, int first) {
-  std::array<double, count> places;
-  for (std::size_t i = 0; i < count; ++i) places[i] = origin + step * (first + static_cast<int>(i));
-  return places;
-}
-
-constexpr float below_one = 0x1.fffffeP-1F;  // so that two fractions carry once at most
-
-/// One part, by column or by row, of one axis of the lattice place: fraction, and cell counted from
-/// the least.
-template <std::size_t count>
-struct AxisPart {
-  alignas(64) std::array<float, count> fraction;
-  std::array<std::int32_t, count> cell;
-  std::int64_t least = 0;
-  int cells = 0;
-  bool rising = true;
-
-  void set(const std::array<double, count>& places, double along, double shift) {
-    std::array<double, count> below;
-    for (std::size_t i = 0; i < count; ++i) {
-      const double x = along * places[i] + shift;
-      below[i] = std::floor(x);
-      fraction[i] = std::min(static_cast<float>(x - below[i]), below_one);
-    }
-    const auto [low, high] = std::minmax(below.front(), below.back());
-    for (std::size_t i = 0; i < count; ++i) cell[i] = static_cast<std::int32_t>(below[i] - low);
-    least = static_cast<std::int64_t>(low);
-    cells = static_cast<int>(high - low) + 1;
-    rising = places.back() * along >= places.front() * along;
-  }
-};
-
-/// One axis of the lattice place of the samples: (i, j) lies at cell column.cell[i] + row.cell[j]
-/// of the tile, and at the sum of the fractions in it, or one cell on if that reaches 1.
-struct AxisParts {
-  AxisPart<tile_columns> column;
-  AxisPart<tile_rows> row;
-
-  std::uint32_t first_cell() const { return static_cast<std::uint32_t>(column.least + row.least); }
-  /// Under the tile: with the carry and the neighbour on the right.
-  int cells() const { return column.cells + row.cells + 1; }
-
-  /// 1 if the least place of the block whose first sample is (i, j) carries.
-  HWY_INLINE int carry(int i, int j, int rows) const {
-    const int least_i = column.rising ? i : i + block_columns - 1;
-    const int least_j = row.rising ? j : j + rows - 1;
-    return static_cast<int>(column.fraction[static_cast<std::size_t>(least_i)] +
-                                row.fraction[static_cast<std::size_t>(least_j)] >=
-                            1.0F);
-  }
-};
-
-/// The hashed lattice under a tile: gradients, or values in x alone.
-struct LatticeTable {
-  std::vector<float> x, y;
-  int stride = 0;
-
-  void set(const AxisParts& px, const AxisParts& py, NoiseBasis basis, std::uint32_t key) {
-    const Floats d;
-    const Unsigneds du;
-    const auto lanes = static_cast<int>(hn::Lanes(d));
-    constexpr int margin = 2;  // four points are read where two or three are needed
-    stride = (px.cells() + margin + lanes - 1) / lanes * lanes;
-    const auto size =
-        static_cast<std::size_t>(stride) * static_cast<std::size_t>(py.cells() + margin);
-    if (x.size() < size) x.resize(size);
-    if (y.size() < size) y.resize(size);
-    for (int j = 0; j < py.cells(); ++j) {
-      const std::uint32_t row = lattice_line(py.first_cell() + static_cast<std::uint32_t>(j), key);
-      for (int i = 0; i < stride; i += lanes) {
-        const auto column = hn::Iota(du, px.first_cell() + static_cast<std::uint32_t>(i));
-        const auto hash = HWY_NAMESPACE::lattice_hash(column, row);
-        const auto at = static_cast<std::size_t>(j * stride + i);
-        if (basis == NoiseBasis::value) {
-          hn::StoreU(HWY_NAMESPACE::lattice_value(hash), d, &x[at]);
-          continue;
-        }
-        FloatVector gx;
-        FloatVector gy;
-        HWY_NAMESPACE::lattice_gradient2(hash, gx, gy);
-        hn::StoreU(gx, d, &x[at]);
-        hn::StoreU(gy, d, &y[at]);
-      }
-    }
-  }
-};
-
-/// Four by four lattice points in registers; a lane picks point (i, j) by index i + 4 j.
-class PointBlock {
- public:
-  HWY_INLINE PointBlock(const float* first, int stride) {
-#if HWY_MAX_BYTES == 64
-    points_ = hn::Combine(Floats(), two_rows(first + 2 * stride, stride), two_rows(first, stride));
-#elif HWY_MAX_BYTES == 32
-    low_ = two_rows(first, stride);
-    high_ = two_rows(first + 2 * stride, stride);
-#else
-    first_ = first;
-    stride_ = stride;
-#endif
-  }
-  HWY_INLINE FloatVector pick(SignedVector index) const {
-    const Floats d;
-#if HWY_MAX_BYTES == 64
-    return hn::TableLookupLanes(points_, hn::IndicesFromVec(d, index));
-#elif HWY_MAX_BYTES == 32
-    const Signeds di;
-    const auto lane = hn::IndicesFromVec(d, hn::And(index, hn::Set(di, 7)));
-    const auto in_low = hn::RebindMask(d, hn::Lt(index, hn::Set(di, 8)));
-    return hn::IfThenElse(in_low, hn::TableLookupLanes(low_, lane),
-                          hn::TableLookupLanes(high_, lane));
-#else
-    const Signeds di;
-    const auto row = hn::Mul(hn::ShiftRight<2>(index), hn::Set(di, stride_));
-    return hn::GatherIndex(d, first_, hn::Add(row, hn::And(index, hn::Set(di, 3))));
-#endif
-  }
-
- private:
-#if HWY_MAX_BYTES == 64 || HWY_MAX_BYTES == 32
-  static HWY_INLINE hn::Vec<hn::Full256<float>> two_rows(const float* first, int stride) {
-    const hn::Full128<float> quarter;
-    return hn::Combine(hn::Full256<float>(), hn::LoadU(quarter, first + stride),
-                       hn::LoadU(quarter, first));
-  }
-#endif
-#if HWY_MAX_BYTES == 64
-  FloatVector points_;
-#elif HWY_MAX_BYTES == 32
-  FloatVector low_, high_;
-#else
-  const float* first_;
-  int stride_;
-#endif
-};
-
-/// How the lanes of a block find their lattice points. Each has the points' difference of index by
-/// row, whether blocks count cells from the tile or from their own first cell, and that cell with
-/// or without its carry; `pick(index, i, j)` is the corner (i, j) of the lane's cell.
-
-/// The whole tile lies on 4 × 4 points.
-class TilePoints {
- public:
-  static constexpr bool by_block = false;
-  static constexpr bool with_carry = false;
-  static int row_stride(int /*stride*/) { return 4; }
-
-  TilePoints(const float* first, int stride)
-      : points_{{first, stride},
-                {first + 1, stride},
-                {first + stride, stride},
-                {first + stride + 1, stride}} {}
-  HWY_INLINE const TilePoints& at(std::ptrdiff_t /*first*/) const { return *this; }
-  HWY_INLINE FloatVector pick(SignedVector index, int i, int j) const {
-    return points_[i + 2 * j].pick(index);
-  }
-
- private:
-  PointBlock points_[4];
-};
-
-/// Every block has its own 4 × 4 points.
-template <bool carry>
-class BlockPoints {
- public:
-  static constexpr bool by_block = true;
-  static constexpr bool with_carry = carry;
-  static int row_stride(int /*stride*/) { return 4; }
-
-  BlockPoints(const float* first, int stride) : first_(first), stride_(stride) {}
-  struct Picker {
-    PointBlock points;
-    HWY_INLINE FloatVector pick(SignedVector index, int i, int j) const {
-      return points.pick(hn::Add(index, hn::Set(Signeds(), i + 4 * j)));
-    }
-  };
-  HWY_INLINE Picker at(std::ptrdiff_t first) const { return {{first_ + first, stride_}}; }
-
- private:
-  const float* first_;
-  int stride_;
-};
-
-/// Points in memory: for blocks that span too many cells.
-class FarPoints {
- public:
-  static constexpr bool by_block = false;
-  static constexpr bool with_carry = false;
-  static int row_stride(int stride) { return stride; }
-
-  FarPoints(const float* first, int stride) : first_(first), stride_(stride) {}
-  HWY_INLINE const FarPoints& at(std::ptrdiff_t /*first*/) const { return *this; }
-  HWY_INLINE FloatVector pick(SignedVector index, int i, int j) const {
-    return hn::GatherIndex(Floats(), first_ + i + j * stride_, index);
-  }
-
- private:
-  const float* first_;
-  int stride_;
-};
-
-/// The cells that the lanes of blocks are in, as indices of their lattice points: a part by column
-/// and a part by row, in floats (exact) above 2^23, so that their lowest bits are the integer.
-struct CellIndices {
-  alignas(64) std::array<float, tile_columns> column;
-  alignas(64) std::array<float, tile_rows * block_columns> row;
-  std::array<std::int32_t, tile_columns / block_columns> column_first;  // of blocks
-  std::array<std::int32_t, tile_rows> row_first;
-
-  void set(const AxisParts& x, const AxisParts& y, bool by_block, int row_stride,
-           int table_stride) {
-    set_part(x.column, y.column, by_block ? block_columns : tile_columns, row_stride, table_stride,
-             column_first.data(),
-             [&](std::size_t i, int index) { column[i] = static_cast<float>(index); });
-    set_part(x.row, y.row, by_block ? block_rows() : tile_rows, row_stride, table_stride,
-             row_first.data(), [&](std::size_t j, int index) {
-               std::fill_n(&row[j * block_columns], block_columns,
-                           0x1p23F + static_cast<float>(index));
-             });
-  }
-
- private:
-  // Groups of `group` samples count from their own least cells.
-  template <std::size_t count, class Put>
-  static void set_part(const AxisPart<count>& x, const AxisPart<count>& y, int group,
-                       int row_stride, int table_stride, std::int32_t* first, const Put& put) {
-    const auto size = static_cast<std::size_t>(group);
-    for (std::size_t begin = 0; begin < count; begin += size) {
-      const int least_x = std::min(x.cell[begin], x.cell[begin + size - 1]);
-      const int least_y = std::min(y.cell[begin], y.cell[begin + size - 1]);
-      *first++ = least_x + table_stride * least_y;
-      for (std::size_t i = begin; i < begin + size; ++i)
-        put(i, x.cell[i] - least_x + row_stride * (y.cell[i] - least_y));
-    }
-  }
-};
 
 /// The noise and, if asked for, its slope in lattice coordinates.
 struct VectorSample {
@@ -374,23 +123,33 @@ HWY_INLINE VectorSample value_sample(Fractions t, const Picker& a, SignedVector 
 HWY_INLINE FloatVector each_four(const float* values) {
   alignas(64) std::array<float, HWY_MAX_BYTES / sizeof(float) + block_columns> lanes;
   for (int r = 0; r < block_rows(); ++r)
-    std::fill_n(&lanes[static_cast<std::size_t>(r * block_columns)], block_columns, values[r]);
+    std::fill_n(&lanes[static_cast<std::size_t>(r) * block_columns], block_columns, values[r]);
   return hn::Load(Floats(), lanes.data());
 }
 
-/// What the samples of a tile have gathered, block after block.
+constexpr std::size_t strip_rows = 16;  // so that the sums stay in the nearest cache
+constexpr std::size_t strip_samples = tile_columns * strip_rows;
+
+/// What the samples of a strip of a tile have gathered, block after block.
 struct Sums {
-  alignas(64) std::array<float, tile_samples> total;
-  alignas(64) std::array<float, tile_samples> w;  // of hybrid and ridged
-  alignas(64) std::array<float, tile_samples> slope_x;
-  alignas(64) std::array<float, tile_samples> slope_y;
+  alignas(64) std::array<float, strip_samples> total;
+  alignas(64) std::array<float, strip_samples> w;  // of hybrid and ridged
+  alignas(64) std::array<float, strip_samples> slope_x;
+  alignas(64) std::array<float, strip_samples> slope_y;
 };
 
 /// One octave as its sum sees it.
 struct Term {
-  const Fractal* f;
-  float amplitude;
-  float weight;
+  Term(const Fractal& f, const FractalSampler::Octave& octave, float octave_weight)
+      : amplitude(octave.amplitude),
+        weight(octave_weight),
+        offset(f.offset),
+        gain(std::max(f.gain, 0.0F)),
+        smooth(f.smooth_ridges),
+        damping(f.damping),
+        matrix(octave.matrix2) {}
+
+  float amplitude, weight, offset, gain, smooth, damping;
   Mat2 matrix;
 };
 
@@ -408,20 +167,20 @@ HWY_INLINE void add_term(const Term& term, VectorSample n, Sums& sums, std::size
   } else if constexpr (kind == FractalKind::turbulence) {
     add(hn::Abs(n.value), scale);
   } else if constexpr (kind == FractalKind::hybrid) {
-    const auto height = hn::Add(n.value, hn::Set(d, term.f->offset));
+    const auto height = hn::Add(n.value, hn::Set(d, term.offset));
     const auto w = hn::Mul(hn::Load(d, &sums.w[at]), hn::Mul(height, hn::Set(d, term.amplitude)));
     add(w, hn::Set(d, term.weight));
     hn::Store(hn::Min(w, hn::Set(d, 1.0F)), d, &sums.w[at]);
   } else if constexpr (kind == FractalKind::ridged) {
-    const float k = term.f->smooth_ridges;
+    const float k = term.smooth;
     const auto rounded = [&]() HWY_ATTR {
       return hn::Sqrt(hn::MulAdd(n.value, n.value, hn::Set(d, k * k)));
     };
-    const auto crest = hn::Sub(hn::Set(d, term.f->offset), k == 0 ? hn::Abs(n.value) : rounded());
+    const auto crest = hn::Sub(hn::Set(d, term.offset), k == 0 ? hn::Abs(n.value) : rounded());
     const auto s = hn::Mul(hn::Mul(crest, crest), hn::Load(d, &sums.w[at]));
     add(s, scale);
-    const auto w = hn::Mul(s, hn::Set(d, term.f->gain));
-    hn::Store(hn::Clamp(w, hn::Zero(d), hn::Set(d, 1.0F)), d, &sums.w[at]);
+    const auto w = hn::Mul(s, hn::Set(d, term.gain));
+    hn::Store(hn::Min(w, hn::Set(d, 1.0F)), d, &sums.w[at]);  // s is not negative
   } else {
     const Mat2& m = term.matrix;
     const auto a = hn::Mul(n.slope_x, scale);
@@ -434,20 +193,85 @@ HWY_INLINE void add_term(const Term& term, VectorSample n, Sums& sums, std::size
     hn::Store(y, d, &sums.slope_y[at]);
     const auto square = hn::MulAdd(x, x, hn::Mul(y, y));
     const auto one = hn::Set(d, 1.0F);
-    const auto damped = hn::Div(one, hn::MulAdd(square, hn::Set(d, term.f->damping), one));
+    const auto damped = hn::Div(one, hn::MulAdd(square, hn::Set(d, term.damping), one));
     add(hn::Mul(n.value, scale), damped);
   }
 }
 
-/// The octaves of one tile.
+/// An octave under a tile.
+struct TileOctave {
+  enum class Points { tile, block, block_with_carry, far };
+
+  explicit TileOctave(const Term& t) : term(t) {}
+
+  AxisParts x, y;
+  LatticeTable lattice;
+  CellIndices indices;
+  Term term;
+  Points points = Points::far;
+};
+
 class FractalTileFill {
  public:
   FractalTileFill(const FractalTile& tile, const FractalSampler& sampler)
-      : tile_(tile),
-        sampler_(sampler),
-        f_(sampler.parameters()),
-        column_places_(sample_places<tile_columns>(tile.origin.x, tile.step, tile.column)),
-        row_places_(sample_places<tile_rows>(tile.origin.y, tile.step, tile.row)) {
+      : tile_(tile), f_(sampler.parameters()), used_(whole_blocks(tile.out)) {
+    const auto columns = sample_places<tile_columns>(tile.origin.x, tile.step, tile.column);
+    const auto rows = sample_places<tile_rows>(tile.origin.y, tile.step, tile.row);
+    octaves_.reserve(static_cast<std::size_t>(tile.octaves));
+    for (int i = 0; i < tile.octaves; ++i) {
+      const FractalSampler::Octave& from = sampler.octave(i);
+      const float spacing = static_cast<float>(std::abs(tile.step)) * from.frequency;
+      TileOctave& octave = octaves_.emplace_back(Term(f_, from, octave_weight(spacing)));
+      const DMat2& m = from.matrix2;
+      octave.x.column.set(columns, used_.columns, m[0][0], 0);
+      octave.x.row.set(rows, used_.rows, m[1][0], from.shift2.x);
+      octave.y.column.set(columns, used_.columns, m[0][1], 0);
+      octave.y.row.set(rows, used_.rows, m[1][1], from.shift2.y);
+      octave.lattice.set(octave.x, octave.y, f_.basis, from.key);
+      choose_points(octave, spacing);
+    }
+  }
+
+  void fill() {
+    const auto height = static_cast<std::size_t>(tile_.out.height());
+    for (std::size_t row = 0; row < height; row += strip_rows) {
+      const std::size_t end = std::min(row + strip_rows, height);
+      clear();
+      if (f_.basis == NoiseBasis::gradient)
+        add_octaves<NoiseBasis::gradient>(row, end);
+      else
+        add_octaves<NoiseBasis::value>(row, end);
+      write(row, end);
+    }
+  }
+
+ private:
+  static TileExtent whole_blocks(const GridView<float>& out) {
+    const auto up = [](int count, std::size_t unit) {
+      return (static_cast<std::size_t>(count) + unit - 1) / unit * unit;
+    };
+    return {up(out.width(), block_columns),
+            up(out.height(), static_cast<std::size_t>(block_rows()))};
+  }
+
+  // Blocks span up to 3 √2 spacing, and count from up to one cell less without carry; four points
+  // serve three cells.
+  void choose_points(TileOctave& octave, float spacing) const {
+    using Points = TileOctave::Points;
+    if (octave.x.cells() <= 4 && octave.y.cells() <= 4)
+      octave.points = Points::tile;
+    else if (spacing < 0.23F)
+      octave.points = Points::block;
+    else if (spacing < 0.47F)
+      octave.points = Points::block_with_carry;
+    const bool by_block =
+        octave.points == Points::block || octave.points == Points::block_with_carry;
+    const int stride = octave.lattice.stride;
+    octave.indices.set(octave.x, octave.y, used_, by_block,
+                       octave.points == Points::far ? stride : 4, stride);
+  }
+
+  void clear() {
     sums_.total.fill(0);
     if (f_.kind == FractalKind::hybrid || f_.kind == FractalKind::ridged) sums_.w.fill(1);
     if (f_.kind != FractalKind::eroded) return;
@@ -455,89 +279,69 @@ class FractalTileFill {
     sums_.slope_y.fill(0);
   }
 
-  void fill() {
-    if (f_.basis == NoiseBasis::gradient)
-      add_octaves<NoiseBasis::gradient>();
-    else
-      add_octaves<NoiseBasis::value>();
-    write();
-  }
-
- private:
   template <NoiseBasis basis>
-  void add_octaves() {
-    for (int i = 0; i < tile_.octaves; ++i) {
+  void add_octaves(std::size_t row, std::size_t end) {
+    for (const TileOctave& octave : octaves_) {
       switch (f_.kind) {
-        case FractalKind::fbm: add_octave<basis, FractalKind::fbm>(i); break;
-        case FractalKind::hybrid: add_octave<basis, FractalKind::hybrid>(i); break;
-        case FractalKind::ridged: add_octave<basis, FractalKind::ridged>(i); break;
-        case FractalKind::turbulence: add_octave<basis, FractalKind::turbulence>(i); break;
-        case FractalKind::eroded: add_octave<basis, FractalKind::eroded>(i); break;
+        case FractalKind::fbm: add_octave<basis, FractalKind::fbm>(octave, row, end); break;
+        case FractalKind::hybrid: add_octave<basis, FractalKind::hybrid>(octave, row, end); break;
+        case FractalKind::ridged: add_octave<basis, FractalKind::ridged>(octave, row, end); break;
+        case FractalKind::turbulence:
+          add_octave<basis, FractalKind::turbulence>(octave, row, end);
+          break;
+        case FractalKind::eroded: add_octave<basis, FractalKind::eroded>(octave, row, end); break;
       }
     }
   }
 
   template <NoiseBasis basis, FractalKind kind>
-  void add_octave(int i) {
-    const FractalSampler::Octave& octave = sampler_.octave(i);
-    const DMat2& m = octave.matrix2;
-    x_.column.set(column_places_, m[0][0], 0);
-    x_.row.set(row_places_, m[1][0], octave.shift2.x);
-    y_.column.set(column_places_, m[0][1], 0);
-    y_.row.set(row_places_, m[1][1], octave.shift2.y);
-    lattice_.set(x_, y_, basis, octave.key);
-    const float spacing = static_cast<float>(std::abs(tile_.step)) * octave.frequency;
-    const Term term{&f_, octave.amplitude, octave_weight(spacing), Mat2(m)};
-    // Blocks span 3 √2 spacing, and count from up to one cell less without carry.
-    if (x_.cells() <= 4 && y_.cells() <= 4)
-      add_blocks<basis, kind, TilePoints>(term);
-    else if (spacing < 0.23F)
-      add_blocks<basis, kind, BlockPoints<false>>(term);
-    else if (spacing < 0.47F)
-      add_blocks<basis, kind, BlockPoints<true>>(term);
-    else
-      add_blocks<basis, kind, FarPoints>(term);
+  void add_octave(const TileOctave& octave, std::size_t row, std::size_t end) {
+    switch (octave.points) {
+      case TileOctave::Points::tile: add_blocks<basis, kind, TilePoints>(octave, row, end); break;
+      case TileOctave::Points::block:
+        add_blocks<basis, kind, BlockPoints<false>>(octave, row, end);
+        break;
+      case TileOctave::Points::block_with_carry:
+        add_blocks<basis, kind, BlockPoints<true>>(octave, row, end);
+        break;
+      case TileOctave::Points::far: add_blocks<basis, kind, FarPoints>(octave, row, end); break;
+    }
   }
 
   template <NoiseBasis basis, FractalKind kind, class Points>
-  void add_blocks(const Term& term) {
+  void add_blocks(const TileOctave& octave, std::size_t row, std::size_t end) {
     const Floats d;
-    const Signeds di;
-    constexpr bool with_slope = kind == FractalKind::eroded;
-    const int rows = block_rows();
-    const int stride = lattice_.stride;
-    const int row_stride = Points::row_stride(stride);
-    const Points points_x(lattice_.x.data(), stride);
-    const Points points_y(lattice_.y.data(), stride);
-    indices_.set(x_, y_, Points::by_block, row_stride, stride);
+    const auto rows = static_cast<std::size_t>(block_rows());
+    const Term term = octave.term;  // of our own: the stores below cannot alter it
+    const int stride = octave.lattice.stride;
+    const float row_stride = static_cast<float>(Points::row_stride(stride));
+    const Points points_x(octave.lattice.x.data(), stride);
+    const Points points_y(octave.lattice.y.data(), stride);
     std::size_t at = 0;
-    for (int j = 0; j < tile_.out.height(); j += rows) {
-      const auto lane = static_cast<std::size_t>(j * block_columns);
-      const auto row_x = each_four(&x_.row.fraction[static_cast<std::size_t>(j)]);
-      const auto row_y = each_four(&y_.row.fraction[static_cast<std::size_t>(j)]);
-      const auto row_index = hn::LoadU(d, &indices_.row[lane]);
-      const std::int32_t row_first =
-          Points::by_block ? indices_.row_first[static_cast<std::size_t>(j / rows)] : 0;
-      for (int i = 0; i < tile_.out.width(); i += block_columns, at += hn::Lanes(d)) {
-        const auto ci = static_cast<std::size_t>(i);
-        Fractions t{hn::Add(hn::LoadDup128(d, &x_.column.fraction[ci]), row_x),
-                    hn::Add(hn::LoadDup128(d, &y_.column.fraction[ci]), row_y)};
+    for (std::size_t j = row; j < end; j += rows) {
+      const Fractions row_place{each_four(&octave.x.row.fraction[j]),
+                                each_four(&octave.y.row.fraction[j])};
+      const auto row_index = each_four(&octave.indices.row[j]);
+      const std::int32_t row_first = Points::by_block ? octave.indices.row_first[j / rows] : 0;
+      for (std::size_t i = 0; i < used_.columns; i += block_columns, at += hn::Lanes(d)) {
+        Fractions t{hn::Add(hn::LoadDup128(d, &octave.x.column.fraction[i]), row_place.x),
+                    hn::Add(hn::LoadDup128(d, &octave.y.column.fraction[i]), row_place.y)};
         const Fractions carry{hn::Floor(t.x), hn::Floor(t.y)};
         t.x = hn::Sub(t.x, carry.x);
         t.y = hn::Sub(t.y, carry.y);
-        auto index = hn::Add(hn::LoadDup128(d, &indices_.column[ci]), row_index);
+        auto index = hn::Add(hn::LoadDup128(d, &octave.indices.column[i]), row_index);
         std::ptrdiff_t first = 0;
         if constexpr (Points::by_block)
-          first = row_first + indices_.column_first[ci / block_columns];
+          first = row_first + octave.indices.column_first[i / block_columns];
         if constexpr (Points::with_carry) {
-          const int carry_x = x_.carry(i, j, rows);
-          const int carry_y = y_.carry(i, j, rows);
+          const int carry_x = octave.x.carry(i, j, rows);
+          const int carry_y = octave.y.carry(i, j, rows);
           first += carry_x + stride * carry_y;
-          index = hn::Sub(index, hn::Set(d, static_cast<float>(carry_x + row_stride * carry_y)));
+          index = hn::Sub(index, hn::Set(d, static_cast<float>(carry_x + 4 * carry_y)));
         }
-        index = hn::Add(index,
-                        hn::MulAdd(carry.y, hn::Set(d, static_cast<float>(row_stride)), carry.x));
-        const auto corner = hn::And(hn::BitCast(di, index), hn::Set(di, 0x3fffff));
+        index = hn::Add(index, hn::MulAdd(carry.y, hn::Set(d, row_stride), carry.x));
+        const auto corner = hn::And(hn::BitCast(Signeds(), index), hn::Set(Signeds(), 0x3fffff));
+        constexpr bool with_slope = kind == FractalKind::eroded;
         VectorSample n;
         if constexpr (basis == NoiseBasis::value)
           n = value_sample<with_slope>(t, points_x.at(first), corner);
@@ -548,32 +352,26 @@ class FractalTileFill {
     }
   }
 
-  void write() const {
+  // From blocks to rows.
+  void write(std::size_t row, std::size_t end) const {
     const hn::FixedTag<float, block_columns> four;
-    const int rows = block_rows();
-    const int width = tile_.out.width();
-    const int whole = width - width % block_columns;
-    const auto lanes = static_cast<std::size_t>(rows * block_columns);
-    const auto blocks = static_cast<std::size_t>((width + block_columns - 1) / block_columns);
-    for (int j = 0; j < tile_.out.height(); ++j) {
-      const auto block_row = static_cast<std::size_t>(j / rows) * blocks * lanes;
-      const float* from =
-          &sums_.total[block_row + static_cast<std::size_t>(j % rows) * block_columns];
-      float* to = tile_.out.row(j).data();
-      for (int i = 0; i < whole; i += block_columns, from += lanes)
+    const auto rows = static_cast<std::size_t>(block_rows());
+    const auto width = static_cast<std::size_t>(tile_.out.width());
+    const std::size_t whole = width - width % block_columns;
+    for (std::size_t j = row; j < end; ++j) {
+      const std::size_t block_row = (j - row) / rows * rows * used_.columns;
+      const float* from = &sums_.total[block_row + (j - row) % rows * block_columns];
+      float* to = tile_.out.row(static_cast<int>(j)).data();
+      for (std::size_t i = 0; i < whole; i += block_columns, from += rows * block_columns)
         hn::StoreU(hn::LoadU(four, from), four, to + i);
       std::copy_n(from, width - whole, to + whole);
     }
   }
 
   FractalTile tile_;
-  const FractalSampler& sampler_;
   const Fractal& f_;
-  std::array<double, tile_columns> column_places_;
-  std::array<double, tile_rows> row_places_;
-  AxisParts x_, y_;
-  LatticeTable lattice_;
-  CellIndices indices_;
+  TileExtent used_;
+  std::vector<TileOctave> octaves_;
   Sums sums_;
 };
 
@@ -595,15 +393,17 @@ void fill_fractal(GridView<float> out, const Fractal& f, DVec2 origin, double st
                   std::uint32_t seed, Progress& progress) {
   const FractalSampler sampler(f, seed);
   const int octaves = sampler.octaves_at(static_cast<float>(std::abs(step)));
-  const int across = (out.width() + tile_columns - 1) / tile_columns;
-  const int up = (out.height() + tile_rows - 1) / tile_rows;
+  constexpr int tile_width = 128;
+  constexpr int tile_height = 64;
+  const int across = (out.width() + tile_width - 1) / tile_width;
+  const int up = (out.height() + tile_height - 1) / tile_height;
   progress.begin("fractal", static_cast<double>(out.width()) * out.height(), "samples");
   parallel_for(0, across * up, [&](int task) {
     progress.check();
-    const int column = task % across * tile_columns;
-    const int row = task / across * tile_rows;
-    const int width = std::min(tile_columns, out.width() - column);
-    const int height = std::min(tile_rows, out.height() - row);
+    const int column = task % across * tile_width;
+    const int row = task / across * tile_height;
+    const int width = std::min(tile_width, out.width() - column);
+    const int height = std::min(tile_height, out.height() - row);
     HWY_DYNAMIC_DISPATCH(fill_fractal_tile)
     ({out.sub(column, row, width, height), column, row, origin, step, octaves}, sampler);
     progress.advance(static_cast<double>(width) * height);
