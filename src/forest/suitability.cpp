@@ -20,7 +20,6 @@ float smoothstep(float low, float high, float x) {
 
 /// 1 inside, 0 outside, soft within `softness` inside the ends that exclude something.
 float inside(float x, Range range, Range any, float softness) {
-  if (!range.contains(x)) return 0;
   float part = 1;
   if (range.low > any.low) part *= smoothstep(range.low, range.low + softness, x);
   if (range.high < any.high) part *= smoothstep(-range.high, softness - range.high, -x);

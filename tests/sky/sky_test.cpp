@@ -170,6 +170,14 @@ TEST(Sky, SamplesFollowTheDensity) {
   EXPECT_LT(chi_2, used + 5 * std::sqrt(2.0 * used));
 }
 
+TEST(Sky, FewSamplesFallBelowTheHorizon) {
+  const Sky sky(with_sun(40));
+  int below = 0;
+  for (int k = 0; k < 10000; ++k) below += sky.sample_sky(random_point(k)).direction.z < 0;
+  EXPECT_GT(below, 100);
+  EXPECT_LT(below, 1500);
+}
+
 TEST(Sky, PdfOfASampleIsThePdfOfItsDirection) {
   const Sky sky(with_sun(30));
   int differ = 0;

@@ -42,6 +42,14 @@ TEST(Sunlight, ClearNoonIsAboutAHundredKilolux) {
   EXPECT_LT(lux, 115e3);
 }
 
+TEST(Sunlight, CleanAirScattersBlueByRayleighsLaw) {
+  // Turbidity 1 is air without aerosol. The channels of Rec. 709 have their weight near 612, 549
+  // and 464 nm, where ozone takes 4, 3 and 0.3 %.
+  const DVec3 passed = sun_disc_radiance(0, 1) / sun_disc_radiance(0, 0);
+  EXPECT_NEAR(passed.z, std::exp(-0.008735 * std::pow(0.464, -4.08)) * 0.997, 0.035);
+  EXPECT_NEAR(passed.x, std::exp(-0.008735 * std::pow(0.612, -4.08)) * 0.96, 0.02);
+}
+
 TEST(Sunlight, ReddensAndDimsAsItSinks) {
   DVec3 before = sun_disc_radiance(0, 3);
   for (double zenith = 10; zenith <= 90; zenith += 10) {
