@@ -11,7 +11,7 @@ namespace {
 // Pairs of random numbers that one bounce may draw; the camera draws the first ones.
 constexpr std::uint32_t camera_pairs = 2;
 constexpr std::uint32_t bounce_pairs = 4;
-constexpr int first_roulette_bounce = 2;
+constexpr int first_roulette_bounce = 1;
 // After a diffuse bounce texture is averaged over this share of the distance.
 constexpr float diffuse_spread = 0.15F;
 
@@ -94,10 +94,14 @@ Vec3 facing(Vec3 normal, Vec3 view_direction) {
   return d > -margin ? glm::normalize(normal - (d + margin) * view_direction) : normal;
 }
 
-/// Light that reaches the surface straight from sun and sky, scattered towards the viewer.
-Vec3 direct_light(const RayScene& scene, const SurfacePoint& surface, const Bsdf& bsdf, Vec2 u_sun,
-                  Vec2 u_sky, RayCount& count) {
+/// Light that reaches the surface straight from sun and sky, scattered towards the viewer. After
+/// the first surface one of the two is chosen, each with probability 1/2: there a ray saved is
+/// worth more than the noise it costs.
+Vec3 direct_light(const RayScene& scene, const SurfacePoint& surface, const Bsdf& bsdf, bool both,
+                  Vec2 u_sun, Vec2 u_sky, RayCount& count) {
   const Sky& sky = scene.world().sky;
+  const bool sun_only = !both && u_sky.x < 0.5F;
+  const bool sky_only = !both && !sun_only;
   Vec3 light(0);
   const auto add = [&](const SkySample& sample, bool by_bsdf_too) {
     if (!(sample.pdf > 0)) return;
@@ -108,9 +112,9 @@ Vec3 direct_light(const RayScene& scene, const SurfacePoint& surface, const Bsdf
     if (scene.occluded(ray, 0, std::numeric_limits<float>::infinity(), count)) return;
     light += value;
   };
-  add(sky.sample_sun(u_sun), false);
-  add(sky.sample_sky(u_sky), true);
-  return light;
+  if (!sky_only) add(sky.sample_sun(u_sun), false);
+  if (!sun_only) add(sky.sample_sky(both ? u_sky : Vec2(2 * u_sky.x - 1, u_sky.y)), true);
+  return both ? light : 2.0F * light;
 }
 
 }  // namespace
@@ -165,7 +169,8 @@ PathSample trace_path(const RayScene& scene, const PathSettings& settings, const
     sampler.skip_to(camera_pairs + static_cast<std::uint32_t>(bounce) * bounce_pairs);
     const Vec2 u_sun = sampler.next();
     const Vec2 u_sky = sampler.next();
-    result.radiance += throughput * direct_light(scene, surface, bsdf, u_sun, u_sky, count);
+    result.radiance +=
+        throughput * direct_light(scene, surface, bsdf, bounce == 0, u_sun, u_sky, count);
     if (bounce >= settings.max_bounces) break;
 
     const Vec2 u = sampler.next();

@@ -4,7 +4,7 @@
 //   L_o = ∫ f L_i |cos| dω, paths built from the camera; at every surface the sun's disc and the
 //   sky are sampled directly, and the sky also by the surface, both weighted by the power heuristic
 //   (Veach 1997, with exponent 2). The sun is found by direct sampling alone after the first
-//   surface. Russian roulette by throughput from the third bounce on. Air between surfaces by
+//   surface. Russian roulette by throughput from the second bounce on. Air between surfaces by
 //   Sky::through_haze.
 
 #include "render/film.hpp"

@@ -52,6 +52,28 @@ bool finite(const Ray& ray) {
   return std::isfinite(sum.x + sum.y + sum.z);
 }
 
+void commit(RTCDevice device, RTCScene scene, RTCBuildQuality quality, Progress& progress) {
+  rtcSetSceneBuildQuality(scene, quality);
+  rtcSetSceneProgressMonitorFunction(scene, go_on, &progress);
+  rtcCommitScene(scene);
+  progress.check();
+  check_device(device);
+  rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
+}
+
+void attach_mesh(RTCDevice device, RTCScene scene, const TriangleMesh& mesh) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  void* positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                            sizeof(Vec3), mesh.positions.size());
+  std::memcpy(positions, mesh.positions.data(), mesh.positions.size() * sizeof(Vec3));
+  void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                            sizeof(UVec3), mesh.triangles.size());
+  std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * sizeof(UVec3));
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+}
+
 RTCRay embree_ray(const Ray& ray, float nearest, float farthest) {
   RTCRay r{};
   r.org_x = ray.origin.x;
@@ -78,26 +100,32 @@ Mat3 instance_matrix(const ModelInstance& instance) {
   return instance.scale * Mat3(c * x0 + s * y0, c * y0 - s * x0, z);
 }
 
-RayScene::RayScene(const World& world, const std::vector<GroundTile>& tiles, Progress& progress)
-    : world_(&world), device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_.get())) {
-  tbb::task_arena arena = build_arena();
-  arena.execute([&] {
-    add_ground(tiles, progress);
-    add_models(progress);
-    add_instances(progress);
-    progress.begin("building the ray tracer's tree", 0, "");
-    commit(scene_.get(), progress);
-    progress.end();
+ModelTrees::ModelTrees(std::span<const Model> models, Progress& progress)
+    : device_(rtcNewDevice(nullptr)), scenes_(models.size()) {
+  for (const Model& model : models) triangles_.push_back(model.mesh.triangles.size());
+  progress.begin("building plants' trees", static_cast<double>(models.size()), "models");
+  build_arena().execute([&] {
+    parallel_for(0, static_cast<int>(models.size()), [&](int i) {
+      const auto k = static_cast<std::size_t>(i);
+      scenes_[k].reset(rtcNewScene(device_.get()));
+      attach_mesh(device_.get(), scenes_[k].get(), models[k].mesh);
+      commit(device_.get(), scenes_[k].get(), RTC_BUILD_QUALITY_MEDIUM, progress);
+      progress.advance();
+    });
   });
+  progress.end();
 }
 
-void RayScene::commit(RTCScene scene, Progress& progress) {
-  rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
-  rtcSetSceneProgressMonitorFunction(scene, go_on, &progress);
-  rtcCommitScene(scene);
-  progress.check();
-  check_device(device_.get());
-  rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
+RayScene::RayScene(const World& world, const ModelTrees& models,
+                   const std::vector<GroundTile>& tiles, Progress& progress)
+    : world_(&world), models_(&models), scene_(rtcNewScene(models.device())) {
+  build_arena().execute([&] {
+    add_ground(tiles, progress);
+    add_instances(progress);
+    progress.begin("building the ray tracer's tree", 0, "");
+    commit(models_->device(), scene_.get(), RTC_BUILD_QUALITY_MEDIUM, progress);
+    progress.end();
+  });
 }
 
 void RayScene::add_ground(const std::vector<GroundTile>& tiles, Progress& progress) {
@@ -112,7 +140,7 @@ void RayScene::add_ground(const std::vector<GroundTile>& tiles, Progress& progre
     progress.advance();
   });
   progress.end();
-  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_GRID);
+  RTCGeometry geometry = rtcNewGeometry(models_->device(), RTC_GEOMETRY_TYPE_GRID);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                              ground_positions_.data(), 0, sizeof(Vec3), tiles.size() * samples);
   auto* grids = static_cast<RTCGrid*>(rtcSetNewGeometryBuffer(
@@ -127,29 +155,8 @@ void RayScene::add_ground(const std::vector<GroundTile>& tiles, Progress& progre
   all_triangles_ += triangles * tiles.size();
 }
 
-void RayScene::add_models(Progress& progress) {
-  for (const Model& model : world_->models) {
-    progress.check();
-    const TriangleMesh& mesh = model.mesh;
-    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* positions = static_cast<Vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX,
-                                                                 0, RTC_FORMAT_FLOAT3, sizeof(Vec3),
-                                                                 mesh.positions.size()));
-    std::memcpy(positions, mesh.positions.data(), mesh.positions.size() * sizeof(Vec3));
-    auto* triangles = static_cast<UVec3*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(UVec3),
-                                mesh.triangles.size()));
-    std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * sizeof(UVec3));
-    rtcCommitGeometry(geometry);
-    models_.emplace_back(rtcNewScene(device_.get()));
-    rtcAttachGeometry(models_.back().get(), geometry);
-    rtcReleaseGeometry(geometry);
-    commit(models_.back().get(), progress);
-    unique_triangles_ += mesh.triangles.size();
-  }
-}
-
 void RayScene::add_instances(Progress& progress) {
+  for (std::size_t k = 0; k < models_->size(); ++k) unique_triangles_ += models_->triangles(k);
   progress.begin("placing plants", static_cast<double>(world_->instances.size()), "plants");
   unsigned id = first_instance_id;
   for (const ModelInstance& instance : world_->instances) {
@@ -157,16 +164,16 @@ void RayScene::add_instances(Progress& progress) {
     const Vec3& p = instance.position;
     const float columns[12] = {m[0].x, m[0].y, m[0].z, m[1].x, m[1].y, m[1].z,
                                m[2].x, m[2].y, m[2].z, p.x,    p.y,    p.z};
-    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(geometry, models_[instance.model].get());
+    RTCGeometry geometry = rtcNewGeometry(models_->device(), RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, models_->model(instance.model));
     rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(scene_.get(), geometry, id++);
     rtcReleaseGeometry(geometry);
-    all_triangles_ += world_->models[instance.model].mesh.triangles.size();
+    all_triangles_ += models_->triangles(instance.model);
     if (id % 1024 == 0) progress.advance(1024);
   }
-  check_device(device_.get());
+  check_device(models_->device());
   progress.end();
 }
 

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/progress.hpp"
@@ -35,11 +36,29 @@ struct RayCount {
   bool timed = false;
 };
 
-/// Holds a reference to the world, which must outlive it. Building throws Error(cancelled), and
-/// Error(limit) when memory runs out.
+/// The models of a world as Embree sees them: built once, shared by all RayScenes of that world and
+/// its copies. Throws Error(cancelled), and Error(limit) when memory runs out.
+class ModelTrees {
+ public:
+  ModelTrees(std::span<const Model> models, Progress& progress);
+
+  RTCDevice device() const { return device_.get(); }
+  std::size_t size() const { return scenes_.size(); }
+  RTCScene model(std::size_t k) const { return scenes_[k].get(); }
+  std::uint64_t triangles(std::size_t k) const { return triangles_[k]; }
+
+ private:
+  embree::Device device_;
+  std::vector<embree::Scene> scenes_;
+  std::vector<std::uint64_t> triangles_;
+};
+
+/// Holds references to the world and the trees of its models, which must outlive it. Building
+/// throws as ModelTrees.
 class RayScene {
  public:
-  RayScene(const World& world, const std::vector<GroundTile>& tiles, Progress& progress);
+  RayScene(const World& world, const ModelTrees& models, const std::vector<GroundTile>& tiles,
+           Progress& progress);
 
   Hit intersect(const Ray& ray, float nearest, bool coherent, RayCount& count) const;
   bool occluded(const Ray& ray, float nearest, float farthest, RayCount& count) const;
@@ -51,13 +70,10 @@ class RayScene {
 
  private:
   void add_ground(const std::vector<GroundTile>& tiles, Progress& progress);
-  void add_models(Progress& progress);
   void add_instances(Progress& progress);
-  void commit(RTCScene scene, Progress& progress);
 
   const World* world_;
-  embree::Device device_;
-  std::vector<embree::Scene> models_;
+  const ModelTrees* models_;
   std::vector<Vec3> ground_positions_;  // shared with Embree
   embree::Scene scene_;
   std::uint64_t unique_triangles_ = 0;

@@ -144,14 +144,14 @@ class Planter {
       place.high = field.origin + field.size();
       place.centre = DVec2(built_.camera.position.x, built_.camera.position.y);
       place.mask = mask.height.empty() ? nullptr : &mask;
-      const auto seed =
-          random_bits(scene_.header.seed, hash_text(std::string_view("scatter")), k);
+      const auto seed = random_bits(scene_.header.seed, hash_text(std::string_view("scatter")), k);
       add(scatter(field, settings, scene_.species, place, seed, progress));
     }
   }
 
  private:
-  /// A map that a terrain step made, or a picture over the whole terrain; empty when none is asked for.
+  /// A map that a terrain step made, or a picture over the whole terrain; empty when none is asked
+  /// for.
   Heightfield mask_of(const ScatterSettings& settings, Progress& progress) const {
     if (settings.mask.empty()) return {};
     const Heightfield& field = built_.world->ground.field();
@@ -186,15 +186,17 @@ class Planter {
 };
 
 /// Chooses among the views of the ground and of what can be a landmark.
-Camera choose_camera(const Scene& scene, const CameraSettings& settings, const World& world,
+Camera choose_camera(const Scene& scene, const CameraSettings& settings, const BuiltScene& built,
                      Progress& progress) {
-  World landmarks = world;
-  std::erase_if(landmarks.instances, [&](const ModelInstance& m) {
-    return landmarks.models[m.model].mesh.bounds().high.z * m.scale < least_landmark;
-  });
-  const DVec2 extent = world.ground.high() - world.ground.low();
+  const Ground& ground = built.world->ground;
+  World landmarks{ground, {}, {}, {}, built.world->sky};
+  std::vector<float> heights;
+  for (const Model& model : built.world->models) heights.push_back(model.mesh.bounds().high.z);
+  for (const ModelInstance& m : built.world->instances)
+    if (heights[m.model] * m.scale >= least_landmark) landmarks.instances.push_back(m);
+  const DVec2 extent = ground.high() - ground.low();
   const double spacing = std::max(extent.x, extent.y) / camera_ground_samples;
-  const RayScene rays(landmarks, dice_ground_evenly(world.ground, spacing), progress);
+  const RayScene rays(landmarks, *built.models, dice_ground_evenly(ground, spacing), progress);
   const float aspect =
       static_cast<float>(scene.render.size.x) / static_cast<float>(scene.render.size.y);
   return find_camera(rays, settings, aspect, scene.header.seed, progress);
@@ -234,6 +236,8 @@ BuiltScene build(const Scene& scene, const std::string& camera, Progress& progre
             {},
             Sky(scene.sky)});
 
+  built.models = timed(built.seconds, "ray tracer",
+                       [&] { return std::make_unique<ModelTrees>(built.world->models, progress); });
   Planter planter(scene, models, built);
   const auto plant = [&](bool near_camera) {
     return timed(built.seconds, "scatter", [&] {
@@ -243,15 +247,16 @@ BuiltScene build(const Scene& scene, const std::string& camera, Progress& progre
   };
   plant(false);
   built.camera = timed(built.seconds, "camera",
-                       [&] { return choose_camera(scene, settings, *built.world, progress); });
+                       [&] { return choose_camera(scene, settings, built, progress); });
   plant(true);
   built.rays = timed(built.seconds, "ray tracer", [&] {
     GroundDicing dicing;
     dicing.spacing_pixels = scene.render.dicing;
     dicing.spacing_outside = 5 * scene.render.dicing;
     const CameraRays rays(built.camera, scene.render.size.x, scene.render.size.y);
-    return std::make_unique<RayScene>(
-        *built.world, dice_ground(built.world->ground, built.camera, rays, dicing), progress);
+    return std::make_unique<RayScene>(*built.world, *built.models,
+                                      dice_ground(built.world->ground, built.camera, rays, dicing),
+                                      progress);
   });
   return built;
 }

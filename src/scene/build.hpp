@@ -13,7 +13,8 @@ namespace wold {
 /// A scene made ready to render for one camera.
 struct BuiltScene {
   std::unique_ptr<World> world;
-  std::unique_ptr<RayScene> rays;  ///< refers to *world
+  std::unique_ptr<ModelTrees> models;  ///< of world->models
+  std::unique_ptr<RayScene> rays;      ///< refers to *world and *models
   Camera camera;
   std::map<std::string, Grid<float>> maps;  ///< of the terrain's steps, over world->ground.field()
   std::map<std::string, double> seconds;    ///< by stage
