@@ -32,7 +32,7 @@ class Patch {
   std::vector<double> chances(std::span<const double> density) {
     std::vector<Item> items;
     for (std::size_t kind = 0; kind < density.size(); ++kind) {
-      drop_candidates(items, kind, static_cast<int>(density[kind] * side_ * side_ + 0.5));
+      drop_candidates(items, kind, static_cast<int>(std::lround(density[kind] * side_ * side_)));
       if (few(density[kind])) drop_probes(items, kind);
     }
     std::sort(items.begin(), items.end(), [&](const Item& a, const Item& b) {

@@ -16,6 +16,7 @@ namespace wold {
 namespace {
 
 constexpr int columns = 512;
+constexpr int quadrant = columns / 4;
 constexpr int cell_rows = 256;         // half of them above the horizon
 constexpr double sun_diameter = 0.53;  // degrees, for which sunlight is computed
 constexpr float share_below = 0.1F;    // of the samples that luminance asks for below the horizon
@@ -35,9 +36,9 @@ double smoothstep(double low, double high, double x) {
 // along each quadrant y / (|x| + |y|), 0 to 1. Up and down, s with s² = |z| / (|z| + across).
 
 double column_azimuth(int column) {  // radians from east to north, [0, 2π]
-  constexpr int quadrant = columns / 4;
+  const int turns = column / quadrant;
   const double t = static_cast<double>(column % quadrant) / quadrant;
-  return (column / quadrant) * (0.5 * pi_d) + std::atan2(t, 1 - t);
+  return turns * (0.5 * pi_d) + std::atan2(t, 1 - t);
 }
 
 double row_elevation(int row) {  // radians
@@ -61,7 +62,7 @@ TablePlace place_of(Vec3 direction) {
   const float sum = std::max(std::abs(direction.x) + std::abs(direction.y), 1e-30F);
   const float t = direction.y / sum;
   const float turn = direction.x < 0 ? 2 - t : (t < 0 ? 4 + t : t);
-  return {turn * (columns / 4), 0.5F * (s + 1) * cell_rows};
+  return {turn * quadrant, 0.5F * (s + 1) * cell_rows};
 }
 
 /// The part of a disc above the horizon; `x` its centre's elevation in radii.
@@ -231,7 +232,7 @@ void Sky::fill_table(const SkySettings& settings) {
   DVec3 irradiance(0);
   for (int j = horizon; j < cell_rows; ++j) {
     const double low = row_sine_[static_cast<std::size_t>(j)];
-    const double high = row_sine_[static_cast<std::size_t>(j + 1)];
+    const double high = row_sine_[static_cast<std::size_t>(j) + 1];
     DVec3 sum(0);
     for (int i = 0; i < columns; ++i) sum += column_width(i) * cell_mean(i, j);
     irradiance += sum * (0.5 * (high * high - low * low));
