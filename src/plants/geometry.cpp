@@ -210,8 +210,9 @@ class PlantBuilder {
 
 /// Scales to a height exactly.
 void scale_to(TriangleMesh& mesh, float height) {
-  const float top = mesh.bounds().high.z;
-  if (!(top > 0))
+  const auto [low, high] = mesh.bounds();
+  const float top = high.z;
+  if (!(top > 1e-6F * glm::length(high - low)))
     throw Error(ErrorKind::input,
                 "this plant has no point above the ground, so no height to scale");
   const float scale = height / top;

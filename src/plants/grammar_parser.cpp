@@ -138,7 +138,8 @@ void GrammarParser::production(StatementReader& reader) {
   std::vector<std::string> parameters;
   std::vector<ModulePattern> patterns{pattern(reader, parameters)};
   const auto more = [&] {
-    while (!arrow_next(reader) && std::string_view(":<>").find(reader.peek()) == std::string::npos)
+    while (!reader.at_end() && !arrow_next(reader) &&
+           std::string_view(":<>").find(reader.peek()) == std::string_view::npos)
       patterns.push_back(pattern(reader, parameters));
   };
   more();
