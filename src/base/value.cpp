@@ -15,9 +15,7 @@ std::string number_text(double number) {
   std::string text = fmt::format("{}", number);
   // Parameters are mostly floats: the shortest text that reads back as the same float is meant.
   const auto single = static_cast<float>(number);
-  if (std::isfinite(number) &&
-      std::abs(static_cast<double>(single) - number) <= 1e-7 * std::abs(number))
-    text = fmt::format("{}", single);
+  if (static_cast<double>(single) == number) text = fmt::format("{}", single);
   return text;
 }
 
@@ -61,10 +59,15 @@ struct KindText {
   }
 };
 
+int days_in_month(int year, int month) {
+  static constexpr int days[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  const bool leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+  return month == 2 && leap ? 29 : days[month - 1];
+}
+
 bool valid(const DateTime& time) {
-  static constexpr int month_days[] = {31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
   return time.month >= 1 && time.month <= 12 && time.day >= 1 &&
-         time.day <= month_days[time.month - 1] && time.hour >= 0 && time.hour <= 23 &&
+         time.day <= days_in_month(time.year, time.month) && time.hour >= 0 && time.hour <= 23 &&
          time.minute >= 0 && time.minute <= 59 && time.second >= 0 && time.second < 61 &&
          std::abs(time.offset_minutes) <= 14 * 60;
 }
