@@ -36,7 +36,7 @@ DiscFit DiscField::test(DVec2 centre, float radius, int size_class) const {
     const int last_column = std::min(at.x + 1, layer.columns - 1);
     for (int j = std::max(at.y - 1, 0); j <= last_row; ++j)
       for (int i = std::max(at.x - 1, 0); i <= last_column; ++i)
-        for (std::int32_t d = layer.first[static_cast<std::size_t>(j * layer.columns + i)];
+        for (std::int32_t d = layer.first[static_cast<std::size_t>(j) * layer.columns + i];
              d >= 0;) {
           const Disc& disc = discs_[static_cast<std::size_t>(d)];
           d = disc.next;
@@ -53,7 +53,7 @@ DiscFit DiscField::test(DVec2 centre, float radius, int size_class) const {
 void DiscField::add(DVec2 centre, float radius, int size_class, bool certain) {
   Layer& layer = layers_[static_cast<std::size_t>(size_class)];
   const IVec2 at = cell_of(layer, centre);
-  std::int32_t& first = layer.first[static_cast<std::size_t>(at.y * layer.columns + at.x)];
+  std::int32_t& first = layer.first[static_cast<std::size_t>(at.y) * layer.columns + at.x];
   discs_.push_back({centre, radius, first, certain});
   first = static_cast<std::int32_t>(discs_.size()) - 1;
 }
