@@ -1,7 +1,12 @@
 // Noise and fractals over grids: the same as the single calls, for any threads and tiles.
-#include <gtest/gtest.h>
+#include "noise/simd_targets.hpp"  // before Highway
 
+#include <gtest/gtest.h>
+#include <hwy/highway.h>
+
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "base/error.hpp"
 #include "base/grid.hpp"
@@ -132,6 +137,43 @@ TEST(Fill, PartOfAGridEqualsTheWholeThere) {
         }
     }
   }
+}
+
+/// Runs what Highway dispatches on one instruction set while it lives.
+class OneTarget {
+ public:
+  explicit OneTarget(std::int64_t target) { choose(target); }
+  OneTarget(const OneTarget&) = delete;
+  OneTarget& operator=(const OneTarget&) = delete;
+  ~OneTarget() { choose(0); }
+
+ private:
+  static void choose(std::int64_t target) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
+TEST(Fill, InstructionSetsAgree) {
+  const std::int64_t supported = hwy::SupportedTargets() & HWY_TARGETS;
+  for (const NoiseBasis basis : bases)
+    for (const FractalKind kind : kinds)
+      for (const double step : {1 / 512.0, 0.02, 0.24, 0.3}) {
+        const Fractal f{.kind = kind, .basis = basis};
+        const Grid<float> best = fractal_grid(140, 70, f, DVec2(0.7, -20.3), step);
+        const Grid<float> best_noise = noise_grid(140, 70, basis, DVec2(0.7, -20.3), step);
+        for (std::int64_t target = 1; target > 0 && target <= supported; target <<= 1) {
+          if ((supported & target) == 0) continue;
+          const OneTarget only(target);
+          const Grid<float> grid = fractal_grid(140, 70, f, DVec2(0.7, -20.3), step);
+          const Grid<float> noise = noise_grid(140, 70, basis, DVec2(0.7, -20.3), step);
+          for (int j = 0; j < 70; ++j)
+            for (int i = 0; i < 140; ++i) {
+              ASSERT_NEAR(grid(i, j), best(i, j), 2e-5) << hwy::TargetName(target);
+              ASSERT_NEAR(noise(i, j), best_noise(i, j), 2e-6) << hwy::TargetName(target);
+            }
+        }
+      }
 }
 
 TEST(Fill, CanBeCancelled) {
