@@ -31,7 +31,7 @@ Description<Falloff> describe(const Falloff&) {
       .add("level", &F::level, {.unit = "m", .min = -20000, .max = 20000},
            "Height at the edge and beyond.")
       .add("irregularity", &F::irregularity, {.unit = "m", .min = 0, .max = 1e6},
-           "How far noise shifts the band.")
+           "How far noise shifts the band inwards.")
       .add("feature_size", &F::feature_size, {.unit = "m", .min = 0.1, .max = 1e6},
            "Size of the bays.");
 }
@@ -39,14 +39,13 @@ Description<Falloff> describe(const Falloff&) {
 Heightfield falloff(const Heightfield& input, const Falloff& parameters,
                     const TerrainContext& context) {
   const Grid<float> noise =
-      irregular(input, parameters.feature_size, 8, context.seed, context.progress);
+      irregular(input, parameters.feature_size, 4, context.seed, context.progress);
   return map_heights(input, context, [&](float h, int i, int j) {
     const double inside = inside_distance(context.domain, parameters.shape, place_of(input, i, j));
-    // Noise acts within the band only: at the edge itself the ground is at its level.
-    const float depth = static_cast<float>(inside) / parameters.width;
-    const float shift =
-        parameters.irregularity / parameters.width * noise(i, j) * smoothstep(2 * depth);
-    return parameters.level + smoothstep(depth + shift) * (h - parameters.level);
+    // Inwards only: at the edge itself the ground is at its level.
+    const float shift = parameters.irregularity * smoothstep(0.5F + 0.7F * noise(i, j));
+    const float depth = (static_cast<float>(inside) - shift) / parameters.width;
+    return parameters.level + smoothstep(depth) * (h - parameters.level);
   });
 }
 

@@ -13,9 +13,9 @@ enum class FalloffShape { round, square };
 
 struct Falloff {
   FalloffShape shape = FalloffShape::round;
-  float width = 1200;         ///< m
+  float width = 1000;         ///< m
   float level = -50;          ///< m, height at the edge
-  float irregularity = 400;   ///< m, how far the band is shifted by noise
+  float irregularity = 600;   ///< m, how far noise shifts the band inwards
   float feature_size = 1500;  ///< m
 };
 
