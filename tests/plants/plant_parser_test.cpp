@@ -89,7 +89,8 @@ TEST(PlantParser, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(message("organ L lenght 1\n"),
             "x.lsys:1:9: unknown setting 'lenght' of 'organ'. Did you mean 'length'?");
   EXPECT_EQ(message("A(x, x) -> B\n"), "x.lsys:1:6: the parameter 'x' appears twice");
-  EXPECT_EQ(message("axiom: ~ A\n"), "x.lsys:1:10: expected a letter directly after '~', found 'A'");
+  EXPECT_EQ(message("axiom: ~ A\n"),
+            "x.lsys:1:10: expected a letter directly after '~', found 'A'");
 }
 
 TEST(PlantParser, RefusesValuesOutOfRange) {
