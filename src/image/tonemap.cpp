@@ -224,7 +224,7 @@ float measured_exposure(const Image& linear, std::span<const float> weights) {
                     weights.empty() ? metering_weight(y, linear.height) : weights[k]);
     }
   if (histogram.empty()) return 0;
-  return static_cast<float>(std::log2(middle_grey) - histogram.trimmed_mean(0.05, 0.95));
+  return static_cast<float>(std::log2(metered_grey) - histogram.trimmed_mean(0.05, 0.95));
 }
 
 float exposure_of(const Image& linear, const ToneMapping& mapping, std::span<const float> weights) {

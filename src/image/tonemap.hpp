@@ -21,7 +21,7 @@
 //
 // Measured exposure brings the log-average luminance (Reinhard et al., "Photographic tone
 // reproduction for digital images", SIGGRAPH 2002) of the pixels between the 5th and the 95th
-// percentile to middle grey, 0.18. So that a bright sky does not turn the land black, the upper
+// percentile to `metered_grey`. So that a bright sky does not turn the land black, the upper
 // part of the picture counts less, as in the metering of a camera.
 
 #include <span>
@@ -35,7 +35,7 @@ namespace wold {
 enum class ToneOperator { clip, exponential, agx, agx_punchy, neutral };
 
 struct ToneMapping {
-  ToneOperator tone_map = ToneOperator::agx;
+  ToneOperator tone_map = ToneOperator::neutral;
   float exposure = 0;         ///< stops, on top of what is measured
   bool auto_exposure = true;  ///< measure first
 };
@@ -45,6 +45,10 @@ Description<ToneMapping> describe(const ToneMapping&);
 /// Linear light to linear light of the display, in [0, 1]. Negative light and NaN count as 0,
 /// infinite light as very bright.
 Vec3 tone_mapped(Vec3 color, ToneOperator tone_map);
+
+/// What a measured exposure makes of the mean: darker than a photographer's grey card, 0.18,
+/// because plants and soil are.
+inline constexpr float metered_grey = 0.125F;
 
 /// The exposure in stops that suits a linear picture (channels R, G, B). `weights`, if not empty,
 /// says how much each pixel counts, row by row from the top (say 1 for land, 0.1 for sky) and

@@ -17,6 +17,12 @@ constexpr float detail_ratio_rock = 0.11F;
 // Sizes of the noises that break up the edges of covers, m.
 constexpr double edge_size = 45;
 constexpr double grain_size = 1.7;
+// Distant forest: its woods, and the crowns that are its surface, m.
+constexpr double wood_size = 420;
+constexpr float crown_size = 9;
+constexpr float crown_height = 6;
+constexpr float wood_height = 11;
+constexpr float steepest_wood = 42;  // degrees
 constexpr float least_footprint = 0.004F;
 
 float smoothstep(float low, float high, float x) {
@@ -66,6 +72,10 @@ Description<GroundMaterial> describe(const GroundMaterial&) {
            "Height where snow begins, and where all is snow.")
       .add("snow_slope", &G::snow_slope, slope,
            "Slope where snow begins to slide off, and where none stays.")
+      .add("distant_forest", &G::distant_forest, {.min = 0, .max = 1},
+           "Share of the surroundings under trees, if the scene plants any.")
+      .add("canopy_color1", &G::canopy_color1, color, "Darker crowns of the distant forest.")
+      .add("canopy_color2", &G::canopy_color2, color, "Lighter crowns of the distant forest.")
       .add("detail", &G::detail, {.min = 0, .max = 5},
            "Height of small features of soil and stone; 1 is natural, 0 smooth.");
 }
@@ -80,11 +90,15 @@ Ground::Ground(Heightfield field, Heightfield surroundings, GroundMaterial mater
       edges_(texture(5), ground_seed(seed, 1)),
       grains_(texture(4), ground_seed(seed, 2)),
       patches_(texture(5), ground_seed(seed, 3)),
+      woods_(texture(6, 0.8F), ground_seed(seed, 7)),
+      crowns_(Fractal{.kind = FractalKind::turbulence, .octaves = 3, .hurst = 1},
+              ground_seed(seed, 8)),
       soil_({material.soil_color1, material.soil_color2, 0.35F, 1.1F}, ground_seed(seed, 4)),
       grass_({material.grass_color1, material.grass_color2, 0.8F, 0.9F}, ground_seed(seed, 5)),
       // Beds of rock: patches are wide and low.
       rock_({material.rock_color1, material.rock_color2, material.rock_feature_size, 1.1F},
-            ground_seed(seed, 6), 0.25F) {
+            ground_seed(seed, 6), 0.25F),
+      canopy_({material.canopy_color1, material.canopy_color2, 22, 1.3F}, ground_seed(seed, 9)) {
   const Heightfield& widest = surroundings_.height.empty() ? field_ : surroundings_;
   low_ = widest.origin;
   high_ = widest.origin + widest.size();
@@ -113,7 +127,23 @@ GroundSample Ground::base(DVec2 place) const {
   return s;
 }
 
+float Ground::canopy_share(DVec2 place, float slope) const {
+  if (material_.distant_forest <= 0 || surroundings_.height.empty() || field_.contains(place))
+    return 0;
+  const float wood = woods_(place / wood_size).value;
+  const float threshold = 0.5F - material_.distant_forest;
+  const float gentle = 1 - smoothstep(steepest_wood - 8, steepest_wood, slope);
+  return gentle * smoothstep(threshold - 0.05F, threshold + 0.05F, wood);
+}
+
 GroundSample Ground::with_detail(GroundSample s, DVec2 place, float spacing) const {
+  const float canopy = canopy_share(place, slope_degrees(s.gradient));
+  if (canopy > 0) {
+    const Sample2 n = crowns_(place / static_cast<double>(crown_size), spacing / crown_size);
+    s.height += canopy * (wood_height - crown_height * n.value);
+    s.gradient -= canopy * crown_height / crown_size * n.derivative;
+    return s;
+  }
   if (material_.detail <= 0 || spacing > widest_detail_) return s;
   const float rock =
       smoothstep(material_.rock_slope.low, material_.rock_slope.high, slope_degrees(s.gradient));
@@ -133,6 +163,7 @@ Ground::Cover Ground::cover(DVec2 place, float footprint, const GroundSample& ba
   const GroundMaterial& m = material_;
   // One noise breaks up the edges of all covers, so that they do not follow contour lines.
   Cover c;
+  c.canopy = canopy_share(place, slope_degrees(base.gradient));
   c.jitter = edges_(place / edge_size, footprint / static_cast<float>(edge_size)).value;
   c.grain = grains_(place / grain_size, footprint / static_cast<float>(grain_size)).value;
   const float base_slope = slope_degrees(base.gradient) + 6 * c.jitter;
@@ -171,6 +202,7 @@ GroundSurface Ground::surface(DVec2 place, float footprint) const {
     if (c.rock < 1) color += (1 - c.rock) * soil_and_grass(p, width, c);
     if (c.rock > 0) color += c.rock * (1 + 0.3F * c.grain) * rock_.at(p, width);
   }
+  if (c.canopy > 0) color = glm::mix(color, canopy_.at(p, width), c.canopy);
   out.reflectance = glm::mix(color, material_.snow_color, c.snow);
   return out;
 }

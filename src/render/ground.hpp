@@ -32,7 +32,10 @@ struct GroundMaterial {
   Range rock_height{3000, 4000};  ///< m: none below, all above
   Range snow_height{6000, 7000};  ///< m: none below, all above
   Range snow_slope{36, 52};       ///< degrees: all below, none above
-  float detail = 1;               ///< height of soil and stone features, relative to natural ones
+  float distant_forest = 0.7F;    ///< share of the surroundings under trees, where trees grow
+  Vec3 canopy_color1{0.016F, 0.032F, 0.011F};
+  Vec3 canopy_color2{0.045F, 0.075F, 0.022F};
+  float detail = 1;  ///< height of soil and stone features, relative to natural ones
 };
 
 Description<GroundMaterial> describe(const GroundMaterial&);
@@ -68,7 +71,10 @@ class Ground {
     float grain = 0;
     float rock = 0;  // shares
     float snow = 0;
+    float canopy = 0;
   };
+  /// Share of tree crowns seen from afar: none inside the field, where plants stand themselves.
+  float canopy_share(DVec2 place, float slope) const;
   GroundSample with_detail(GroundSample base, DVec2 place, float spacing) const;
   Cover cover(DVec2 place, float footprint, const GroundSample& base,
               const GroundSample& detailed) const;
@@ -82,9 +88,12 @@ class Ground {
   FractalSampler edges_;
   FractalSampler grains_;
   FractalSampler patches_;
+  FractalSampler woods_;
+  FractalSampler crowns_;
   TwoColorTexture soil_;
   TwoColorTexture grass_;
   TwoColorTexture rock_;
+  TwoColorTexture canopy_;
   DVec2 low_{0};
   DVec2 high_{0};
   Range heights_;

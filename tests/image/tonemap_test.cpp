@@ -102,16 +102,17 @@ Image grey_picture(int width, int height, float value) {
   return {width, height, {"R", "G", "B"}, value};
 }
 
-TEST(Exposure, FlatPictureBecomesMiddleGrey) {
-  EXPECT_NEAR(measured_exposure(grey_picture(32, 32, 0.18F)), 0, 0.02F);
-  EXPECT_NEAR(measured_exposure(grey_picture(32, 32, 0.18F * 16)), -4, 0.02F);
-  EXPECT_NEAR(exposure_of(grey_picture(8, 8, 0.09F), {.exposure = 1.5F}), 2.5F, 0.02F);
-  EXPECT_EQ(exposure_of(grey_picture(8, 8, 0.09F), {.exposure = 1.5F, .auto_exposure = false}),
-            1.5F);
+TEST(Exposure, FlatPictureBecomesMeteredGrey) {
+  EXPECT_NEAR(measured_exposure(grey_picture(32, 32, metered_grey)), 0, 0.02F);
+  EXPECT_NEAR(measured_exposure(grey_picture(32, 32, metered_grey * 16)), -4, 0.02F);
+  EXPECT_NEAR(exposure_of(grey_picture(8, 8, metered_grey / 2), {.exposure = 1.5F}), 2.5F, 0.02F);
+  EXPECT_EQ(
+      exposure_of(grey_picture(8, 8, metered_grey / 2), {.exposure = 1.5F, .auto_exposure = false}),
+      1.5F);
 }
 
 TEST(Exposure, BlackAndBrokenPixelsDoNotCount) {
-  Image image = grey_picture(32, 32, 0.18F);
+  Image image = grey_picture(32, 32, metered_grey);
   for (int x = 0; x < 32; ++x) {
     image.at(x, 20, 0) = std::nanf("");
     for (int c = 0; c < 3; ++c) image.at(x, 25, c) = 0;
@@ -121,7 +122,7 @@ TEST(Exposure, BlackAndBrokenPixelsDoNotCount) {
 }
 
 TEST(Exposure, SunAndSkyMoveItLittle) {
-  Image image = grey_picture(64, 64, 0.18F);
+  Image image = grey_picture(64, 64, metered_grey);
   const float land = measured_exposure(image);
   Image glitter = image;
   for (int x = 0; x < 64; ++x)
@@ -129,7 +130,7 @@ TEST(Exposure, SunAndSkyMoveItLittle) {
   EXPECT_NEAR(measured_exposure(glitter), land, 0.05F);
   for (int y = 0; y < 32; ++y)
     for (int x = 0; x < 64; ++x)
-      for (int c = 0; c < 3; ++c) image.at(x, y, c) = 0.18F * 8;  // a sky 3 stops brighter
+      for (int c = 0; c < 3; ++c) image.at(x, y, c) = metered_grey * 8;  // a sky 3 stops brighter
   EXPECT_NEAR(measured_exposure(image), land, 1.2F);
   std::vector<float> weights(64 * 64, 1.0F);
   std::fill_n(weights.begin(), 64 * 32, 0.0F);
