@@ -7,10 +7,11 @@
 // one permute, one load, half a store; the core ran at 1.43 cycles of the counter):
 // - Gradient noise, 50 samples per feature: 7 loads, 4 permutes, 3 multiply-adds and a store: 7
 // cycles
-//   per vector, 0.3 of the counter per point. Measured 0.8: the store to memory takes the rest.
+//   per vector, 0.3 of the counter per point. Measured 0.8; where the rest goes is not known.
 // - One octave of a fractal: 23 multiply-adds and multiplications, 13 additions and roundings, 8
-//   permutes on units that the first share: 27 cycles per vector, 1.2 of the counter per point.
-//   Measured 36 for coarse octaves, 40 to 52 for the finest two; ridged adds 6.
+//   permutes that seem to share units with the first: 27 core cycles per vector, 1.2 of the counter
+//   per point. Measured 36 core cycles for coarse octaves, 40 to 52 for the finest two; ridged
+//   adds 6.
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
