@@ -27,7 +27,9 @@ std::size_t choose(std::span<const double> share, double u) {
 }  // namespace
 
 Description<GridSpawner> describe(const GridSpawner&) {
-  return Description<GridSpawner>("grid", "A grid of plants around the camera.")
+  return Description<GridSpawner>("grid", "A grid of plants, or a single one at a place.")
+      .choice("around", &GridSpawner::around, {"camera", "world"},
+              "What the offset is counted from.")
       .add("species", &GridSpawner::species, {.min = 0},
            "Names of species and how often each is chosen; empty: all alike.")
       .add("cells", &GridSpawner::cells, {.min = 1, .max = 100000},
@@ -35,7 +37,7 @@ Description<GridSpawner> describe(const GridSpawner&) {
       .add("cell_size", &GridSpawner::cell_size, {.unit = "m", .min = 0, .max = 10000},
            "Side of a cell.")
       .add("offset", &GridSpawner::offset, {.unit = "m", .min = -1e6, .max = 1e6},
-           "From the camera to the middle of the grid.")
+           "To the middle of the grid, east and north.")
       .add("probability", &GridSpawner::probability, {.min = 0, .max = 1},
            "Chance of a cell to get a plant.")
       .add("position_spread", &GridSpawner::position_spread, {.min = 0, .max = 1},

@@ -1,6 +1,7 @@
 #pragma once
-// A rectangular grid of plants around a point: each cell, with a probability, gets one plant of a
-// random species, at a random place within a share of the cell around its middle.
+// A rectangular grid of plants around the camera or a place of the world: each cell, with a
+// probability, gets one plant of a random species, at a random place within a share of the cell
+// around its middle.
 
 #include <cstdint>
 #include <span>
@@ -13,7 +14,11 @@
 
 namespace wold {
 
+/// What the middle of a grid is set off from.
+enum class GridCentre { camera, world };
+
 struct GridSpawner {
+  GridCentre around = GridCentre::camera;
   Weights species;  ///< empty: all alike
   IVec2 cells{1, 1};
   float cell_size = 3;  ///< m

@@ -15,7 +15,8 @@ height = 90                # m
 feature_size = 700         # m
 )";
 
-const char* const default_forest = R"(# Plants: each species is a text file that grows a few individuals.
+const char* const default_forest =
+    R"(# Plants: each species is a text file that grows a few individuals.
 [[species]]
 name = "birch"
 plant = "plants/birch.lsys"

@@ -15,13 +15,12 @@ namespace {
 constexpr int format_version = 1;
 const std::vector<std::string> step_key{"step"};
 
-[[noreturn]] void unknown_section(std::string_view name, const toml::source_region& source) {
+[[noreturn]] void unknown_section(std::string_view name, const SourceLocation& where) {
   std::vector<std::string> known{"wold", "seed"};
   for (const SceneSection& section : scene_sections())
     if (section.path.find('.') == std::string::npos) known.push_back(section.path);
   throw Error(ErrorKind::input,
-              fmt::format("unknown section or key '{}'.{}", name, suggestion(name, known)),
-              location_of(source));
+              fmt::format("unknown section or key '{}'.{}", name, suggestion(name, known)), where);
 }
 
 const toml::table& table_of(const toml::node& node, std::string_view name) {
@@ -48,18 +47,31 @@ void for_each_table(const toml::table& parent, const std::string& name, const Vi
   for (const toml::node& item : *array) visit(*item.as_table());
 }
 
-template <class T>
-void read_section(const toml::table& root, const char* name, T& object,
-                  std::span<const std::string> skip = {}) {
-  const toml::node* node = root.get(name);
-  if (node != nullptr) assign_all(describe(object), &object, table_of(*node, name), skip);
+using Locations = std::map<std::string, SourceLocation>;
+
+void locate(Locations& locations, const std::string& path, const toml::table& table) {
+  locations[path] = location_of(table.source());
+  for (const auto& [key, node] : table)
+    locations[path + "." + std::string(key.str())] = location_of(node.source());
 }
 
 template <class T>
-void read_sections(const toml::table& root, const char* name, std::vector<T>& list) {
+void read_section(const toml::table& root, const char* name, T& object, Locations& locations,
+                  std::span<const std::string> skip = {}) {
+  const toml::node* node = root.get(name);
+  if (node == nullptr) return;
+  const toml::table& table = table_of(*node, name);
+  assign_all(describe(object), &object, table, skip);
+  locate(locations, name, table);
+}
+
+template <class T>
+void read_sections(const toml::table& root, const char* name, std::vector<T>& list,
+                   Locations& locations) {
   for_each_table(root, name, [&](const toml::table& table) {
     T object;
     assign_all(describe(object), &object, table);
+    locate(locations, fmt::format("{}.{}", name, list.size()), table);
     list.push_back(std::move(object));
   });
 }
@@ -78,7 +90,7 @@ TerrainStep read_step(const toml::table& table) {
       const bool known = step.parameters.parameters().find(key.str()) != nullptr ||
                          describe(step.settings).parameters().find(key.str()) != nullptr;
       assign(step, key.str(), known ? value_of(node) : Value(false),
-             location_of(known ? node.source() : key.source()));
+             known ? location_of(node.source()) : key_location(key, node));
     }
   return step;
 }
@@ -99,23 +111,46 @@ void add_defaults(toml::table& root) {
     const toml::table defaults = parse_toml(default_steps, "default scene");
     table->insert("step", *defaults["terrain"]["step"].as_array());
   }
-  if (!root.contains("species") && !root.contains("scatter"))
+  if (!root.contains("species") && !root.contains("scatter") && !root.contains("grid"))
     insert_missing(root, default_forest, {"species", "scatter"});
 }
 
-void check_species(const Scene& scene, const toml::table& root) {
+/// Every name is there, and once.
+template <class T>
+void check_names(const Scene& scene, const char* section, const std::vector<T>& list) {
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const std::string path = fmt::format("{}.{}", section, k);
+    if (list[k].name.empty())
+      throw Error(ErrorKind::input, fmt::format("a [[{}]] needs a name", section),
+                  scene.location(path));
+    for (std::size_t other = 0; other < k; ++other)
+      if (list[other].name == list[k].name)
+        throw Error(ErrorKind::input,
+                    fmt::format("another [[{}]] is called '{}' too", section, list[k].name),
+                    scene.location(path + ".name"));
+  }
+}
+
+void check_species(const Scene& scene) {
   std::vector<std::string> names;
-  for (const SpeciesSettings& s : scene.species) names.push_back(s.name);
-  std::size_t k = 0;
-  for_each_table(root, "scatter", [&](const toml::table& table) {
-    for (const auto& [name, weight] : scene.scatter[k++].species)
+  for (const SpeciesSettings& s : scene.species) {
+    if (s.plant.empty())
+      throw Error(ErrorKind::input,
+                  "a [[species]] needs a plant file, such as plant = \"plants/birch.lsys\"",
+                  scene.location(fmt::format("species.{}", names.size())));
+    names.push_back(s.name);
+  }
+  const auto check = [&](const Weights& species, const std::string& path) {
+    for (const auto& [name, weight] : species)
       if (std::find(names.begin(), names.end(), name) == names.end())
-        throw Error(
-            ErrorKind::input,
-            fmt::format("no [[species]] is called '{}'.{}", name, suggestion(name, names)),
-            location_of(table["species"].node() != nullptr ? table["species"].node()->source()
-                                                           : table.source()));
-  });
+        throw Error(ErrorKind::input,
+                    fmt::format("no [[species]] is called '{}'.{}", name, suggestion(name, names)),
+                    scene.location(path));
+  };
+  for (std::size_t k = 0; k < scene.scatter.size(); ++k)
+    check(scene.scatter[k].species, fmt::format("scatter.{}.species", k));
+  for (std::size_t k = 0; k < scene.grids.size(); ++k)
+    check(scene.grids[k].species, fmt::format("grid.{}.species", k));
 }
 
 Scene scene_of(const toml::table& root, const std::string& source,
@@ -131,7 +166,7 @@ Scene scene_of(const toml::table& root, const std::string& source,
       header.assign(&scene.header, name, value_of(node), location_of(node.source()));
     } else if (std::none_of(sections.begin(), sections.end(),
                             [&](const SceneSection& s) { return s.path == name; })) {
-      unknown_section(name, key.source());
+      unknown_section(name, key_location(key, node));
     }
   }
   if (scene.header.wold > format_version)
@@ -139,21 +174,26 @@ Scene scene_of(const toml::table& root, const std::string& source,
                 fmt::format("this scene is of format {}, but this wold reads up to {}",
                             scene.header.wold, format_version),
                 {source, 0, 0});
-  read_section(root, "terrain", scene.terrain, step_key);
+  Locations& places = scene.locations;
+  read_section(root, "terrain", scene.terrain, places, step_key);
   if (const auto* terrain = root["terrain"].as_table())
     for_each_table(*terrain, "step",
                    [&](const toml::table& table) { scene.steps.push_back(read_step(table)); });
-  read_section(root, "surroundings", scene.surroundings);
-  read_section(root, "ground", scene.ground);
-  read_section(root, "sky", scene.sky);
-  read_section(root, "render", scene.render);
-  read_section(root, "picture", scene.picture);
-  read_sections(root, "material", scene.materials);
-  read_sections(root, "species", scene.species);
-  read_sections(root, "scatter", scene.scatter);
-  read_sections(root, "camera", scene.cameras);
+  read_section(root, "surroundings", scene.surroundings, places);
+  read_section(root, "ground", scene.ground, places);
+  read_section(root, "sky", scene.sky, places);
+  read_section(root, "render", scene.render, places);
+  read_section(root, "picture", scene.picture, places);
+  read_sections(root, "material", scene.materials, places);
+  read_sections(root, "species", scene.species, places);
+  read_sections(root, "scatter", scene.scatter, places);
+  read_sections(root, "grid", scene.grids, places);
+  read_sections(root, "camera", scene.cameras, places);
   if (scene.cameras.empty()) scene.cameras.emplace_back();
-  check_species(scene, root);
+  check_names(scene, "material", scene.materials);
+  check_names(scene, "species", scene.species);
+  check_names(scene, "camera", scene.cameras);
+  check_species(scene);
   return scene;
 }
 
@@ -172,6 +212,16 @@ Description<Surroundings> describe(const Surroundings&) {
       .add("factor", &Surroundings::factor, {.min = 1, .max = 100},
            "Its size, in sizes of the terrain; 1 for none.")
       .add("resolution", &Surroundings::resolution, {.min = 3, .max = 16385}, "Samples on a side.");
+}
+
+SourceLocation Scene::location(const std::string& path) const {
+  for (std::string at = path; !at.empty();) {
+    if (const auto found = locations.find(at); found != locations.end() && found->second.known())
+      return found->second;
+    const auto dot = at.rfind('.');
+    at.resize(dot == std::string::npos ? 0 : dot);
+  }
+  return {source, 0, 0};
 }
 
 const CameraSettings& Scene::camera(const std::string& name) const {
@@ -193,6 +243,7 @@ std::vector<SceneSection> scene_sections() {
       {"material", true, Described::of(Material{})},
       {"species", true, Described::of(SpeciesSettings{})},
       {"scatter", true, Described::of(ScatterSettings{})},
+      {"grid", true, Described::of(GridSpawner{})},
       {"sky", false, Described::of(SkySettings{})},
       {"camera", true, Described::of(CameraSettings{})},
       {"render", false, Described::of(RenderSettings{})},

@@ -9,11 +9,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/parameters.hpp"
+#include "forest/grid_spawner.hpp"
 #include "forest/scatter.hpp"
 #include "forest/species.hpp"
 #include "image/tonemap.hpp"
@@ -51,11 +53,16 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<SpeciesSettings> species;
   std::vector<ScatterSettings> scatter;
+  std::vector<GridSpawner> grids;
   SkySettings sky;
   std::vector<CameraSettings> cameras;  ///< at least one
   RenderSettings render;
   ToneMapping picture;
+  /// Where sections and values stand in the file: "sky", "render.size", "species.0.plant".
+  std::map<std::string, SourceLocation> locations;
 
+  /// Where a value stands, or else its section, or else the file.
+  SourceLocation location(const std::string& path) const;
   /// The camera of that name, or the first for an empty name. Throws Error(usage) with the nearest
   /// name.
   const CameraSettings& camera(const std::string& name) const;

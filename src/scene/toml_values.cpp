@@ -98,6 +98,10 @@ SourceLocation location_of(const toml::source_region& region) {
   return where;
 }
 
+SourceLocation key_location(const toml::key& key, const toml::node& node) {
+  return location_of(key.source().path ? key.source() : node.source());
+}
+
 Value value_of(const toml::node& node) {
   if (const auto* v = node.as_boolean()) return v->get();
   if (const auto* v = node.as_integer()) return v->get();
@@ -118,7 +122,7 @@ void assign_all(const ParameterSet& set, void* object, const toml::table& table,
     if (std::find(skip.begin(), skip.end(), name) != skip.end()) continue;
     if (set.find(name) == nullptr) {
       // The name is wrong before its value is.
-      set.assign(object, name, false, location_of(key.source()));
+      set.assign(object, name, false, key_location(key, node));
     }
     set.assign(object, name, value_of(node), location_of(node.source()));
   }

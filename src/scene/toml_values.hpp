@@ -14,6 +14,8 @@ namespace wold {
 
 /// Where a node or a key stands.
 SourceLocation location_of(const toml::source_region& region);
+/// Where a key stands; of one that `override_value` made, the override.
+SourceLocation key_location(const toml::key& key, const toml::node& node);
 
 /// The value of a node. Throws Error(input) for what no parameter can be (mixed arrays, nested
 /// tables).

@@ -1,0 +1,159 @@
+#include "scene/planting.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/hash.hpp"
+#include "plants/plant.hpp"
+#include "terrain/import.hpp"
+
+namespace wold {
+
+namespace {
+
+/// A plant file's material as a renderer's: its colour varied a little in space.
+Material material_of(const PlantMaterial& plant) {
+  Material m;
+  m.name = plant.name;
+  m.color1 = 0.8F * plant.reflectance;
+  m.color2 = 1.2F * plant.reflectance;
+  m.transmission = plant.transmittance;
+  m.roughness = plant.roughness;
+  const bool wood = plant.name.find("bark") != std::string::npos || plant.name == "twig";
+  m.feature_size = wood ? 0.06F : 0.5F;
+  m.stretch = wood ? 4.0F : 1.0F;
+  m.variation = wood ? 0.08F : 0.16F;
+  return m;
+}
+
+/// Finds or makes the material of a part of a species: the scene's "species.part" or "part", the
+/// standard "species.part", the plant file's own, the standard "part".
+class Materials {
+ public:
+  explicit Materials(const Scene& scene) : scene_(scene) {}
+
+  std::uint32_t index_of(const std::string& species, const std::string& part, const Plant& plant) {
+    const std::string key = species + "." + part;
+    if (const auto found = index_.find(key); found != index_.end()) return found->second;
+    list.emplace_back(find(key, part, plant));
+    const auto index = static_cast<std::uint32_t>(list.size() - 1);
+    index_.emplace(key, index);
+    return index;
+  }
+
+  std::vector<SurfaceMaterial> list;
+
+ private:
+  Material find(const std::string& key, const std::string& part, const Plant& plant) const {
+    for (const std::string& name : {key, part})
+      for (const Material& m : scene_.materials)
+        if (m.name == name) return m;
+    const auto standard = [](const std::string& name) -> const Material* {
+      for (const Material& m : standard_materials())
+        if (m.name == name) return &m;
+      return nullptr;
+    };
+    const std::string own = plant.name + "." + part;
+    if (const Material* m = standard(own)) return *m;
+    if (const PlantMaterial* m = plant.find_material(part)) return material_of(*m);
+    if (const Material* m = standard(part)) return *m;
+    Material grey;
+    grey.name = part;
+    return grey;
+  }
+
+  const Scene& scene_;
+  std::map<std::string, std::uint32_t> index_;
+};
+
+}  // namespace
+
+void check_mask(const Scene& scene, const ScatterSettings& settings,
+                const OperatorList& operators) {
+  const std::string& mask = settings.mask.path;
+  if (mask.empty()) return;
+  std::vector<std::string> known;
+  for (const TerrainStep& step : scene.steps)
+    for (const std::string& map : find_operator(operators, step.op, step.location).maps) {
+      known.push_back(map);
+      if (!step.settings.name.empty())
+        known.push_back(map == "mask" ? step.settings.name : step.settings.name + "." + map);
+    }
+  if (std::find(known.begin(), known.end(), mask) != known.end()) return;
+  if (std::filesystem::path(mask).has_extension()) {
+    find_scene_file(mask, scene.folder);
+    return;
+  }
+  throw Error(ErrorKind::input,
+              fmt::format("mask '{}' is neither a map of the terrain's steps nor a picture.{}",
+                          mask, suggestion(mask, known)));
+}
+
+PlantModels build_models(const Scene& scene, Progress& progress) {
+  Materials materials(scene);
+  std::vector<SpeciesSettings> settings = scene.species;
+  for (SpeciesSettings& s : settings)
+    s.plant.path = find_scene_file(s.plant.path, scene.folder).string();
+  PlantModels models;
+  for (Species& species : grow_species(settings, scene.header.seed, progress)) {
+    models.first_model.push_back(static_cast<std::uint32_t>(models.list.size()));
+    for (TriangleMesh& mesh : species.models) {
+      Model model;
+      for (const MeshPart& part : mesh.parts)
+        model.part_materials.push_back(
+            materials.index_of(species.settings.name, part.material, species.plant));
+      model.mesh = std::move(mesh);
+      models.list.push_back(std::move(model));
+    }
+  }
+  models.materials = std::move(materials.list);
+  return models;
+}
+
+/// A map that a terrain step made, or a picture over the whole terrain; empty when none is asked
+/// for.
+Heightfield Planter::mask_of(const ScatterSettings& settings, Progress& progress) const {
+  if (settings.mask.empty()) return {};
+  Heightfield mask = field_;
+  if (const auto map = maps_.find(settings.mask.path); map != maps_.end()) {
+    mask.height = map->second;
+  } else {
+    const auto file = find_scene_file(settings.mask.path, scene_.folder);
+    mask.height =
+        picture_over(file, "", TerrainDomain{field_.origin, field_.size()}, field_, progress);
+  }
+  return mask;
+}
+
+std::vector<Instance> Planter::plants(Planting which, DVec2 camera, Progress& progress) const {
+  const bool near_camera = which == Planting::near_camera;
+  std::vector<Instance> all;
+  const auto add = [&](const std::vector<Instance>& some) {
+    all.insert(all.end(), some.begin(), some.end());
+  };
+  const auto seed = [&](std::string_view section, std::size_t k) {
+    return random_bits(scene_.header.seed, hash_text(section), k);
+  };
+  for (std::size_t k = 0; k < scene_.scatter.size(); ++k) {
+    const ScatterSettings& settings = scene_.scatter[k];
+    if ((settings.where.within > 0) != near_camera) continue;
+    const Heightfield mask = mask_of(settings, progress);
+    ScatterPlace place;
+    place.low = field_.origin;
+    place.high = field_.origin + field_.size();
+    place.centre = camera;
+    place.mask = mask.height.empty() ? nullptr : &mask;
+    add(scatter(field_, settings, scene_.species, place, seed("scatter", k), progress));
+  }
+  for (std::size_t k = 0; k < scene_.grids.size(); ++k) {
+    const GridSpawner& grid = scene_.grids[k];
+    if ((grid.around == GridCentre::camera) != near_camera) continue;
+    const DVec2 centre = near_camera ? camera : DVec2(0);
+    add(spawn_grid(field_, grid, scene_.species, centre, seed("grid", k)));
+  }
+  return all;
+}
+
+}  // namespace wold
