@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <memory>
 
 #include "base/error.hpp"
@@ -16,21 +17,22 @@ namespace wold {
 namespace {
 
 void list_all(const CLI::App& app) {
-  fmt::print("{}\n\nCommands ('wold help COMMAND'):\n", app.get_description());
+  std::string text = fmt::format("{}\n\nCommands ('wold help COMMAND'):\n", app.get_description());
+  const auto add = [&text](const std::string& name, const std::string& what) {
+    text += fmt::format("  {:<14} {}\n", name, what);
+  };
   for (const CLI::App* command : app.get_subcommands({}))
-    fmt::print("  {:<14} {}\n", command->get_name(), command->get_description());
-  fmt::print("\nSections of a scene file ('wold help SECTION'):\n");
-  for (const SceneSection& s : scene_sections()) {
-    const std::string written = s.repeated ? "[[" + s.path + "]]" : "[" + s.path + "]";
-    fmt::print("  {:<14} {}\n", written, s.defaults.parameters().text);
-  }
-  fmt::print("\nOperators of [[terrain.step]] ('wold help OPERATOR'):\n");
-  for (const TerrainOperator& op : scene_operators())
-    fmt::print("  {:<14} {}\n", op.name(), op.text());
+    add(command->get_name(), command->get_description());
+  text += "\nSections of a scene file ('wold help SECTION'):\n";
+  for (const SceneSection& s : scene_sections())
+    add(s.repeated ? "[[" + s.path + "]]" : "[" + s.path + "]", s.defaults.parameters().text);
+  text += "\nOperators of [[terrain.step]] ('wold help OPERATOR'):\n";
+  for (const TerrainOperator& op : scene_operators()) add(op.name(), op.text());
+  write_output(text);
 }
 
 void print_set(const ParameterSet& set, const void* defaults) {
-  fmt::print("{}", help_text(set, defaults));
+  write_output(help_text(set, defaults));
 }
 
 /// Prints the help of a command, a section or an operator. Throws Error(usage) for anything else.
@@ -40,13 +42,14 @@ void explain(const CLI::App& app, const std::string& topic) {
   for (const CLI::App* command : app.get_subcommands({})) {
     known.push_back(command->get_name());
     if (command->get_name() != topic) continue;
-    fmt::print("{}", command->help());
+    write_output(command->help());
     found = true;
   }
   for (const SceneSection& section : scene_sections()) {
-    known.push_back(section.path);
+    if (std::find(known.begin(), known.end(), section.path) == known.end())
+      known.push_back(section.path);
     if (section.path != topic) continue;
-    if (found) fmt::print("\n");
+    if (found) write_output("\n");
     print_set(section.defaults.parameters(), section.defaults.data());
     found = true;
   }
@@ -55,7 +58,7 @@ void explain(const CLI::App& app, const std::string& topic) {
     if (op.name() != topic) continue;
     print_set(op.defaults.parameters(), op.defaults.data());
     const StepSettings common;
-    fmt::print("\nBesides, as for every step: ");
+    write_output("\nBesides, as for every step: ");
     print_set(describe(common), &common);
     found = true;
   }
@@ -103,7 +106,7 @@ void add_help(CLI::App& app, Session&) {
     if (!folder->empty()) {
       write_reference(*folder);
     } else if (*schema) {
-      fmt::print("{}", scene_schema());
+      write_output(scene_schema());
     } else if (topic->empty()) {
       list_all(app);
     } else {

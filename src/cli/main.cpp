@@ -4,11 +4,14 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "cli/commands.hpp"
@@ -30,7 +33,7 @@ extern "C" void on_interrupt(int) {
 }
 
 void complain(const std::string& message) {
-  fmt::print(stderr, "{}\n", message);
+  wold::write_error(message + "\n");
 }
 
 int exit_code(const wold::Error& error) {
@@ -51,6 +54,19 @@ int report(const wold::Error& error) {
   return exit_code(error);
 }
 
+/// CLI11 speaks of subcommands and options without naming what was meant.
+std::string complaint(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  if (argc > 1 && app.get_subcommands().empty() && argv[1][0] != '-') {
+    std::vector<std::string> known;
+    for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+    return fmt::format("unknown command '{}'.{}", argv[1], wold::suggestion(argv[1], known));
+  }
+  if (argc <= 1) return "a command is missing, such as 'wold render scenes/forest.toml'.";
+  std::string message = error.what();
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  return message.ends_with('.') ? message : message + ".";
+}
+
 int run(int argc, char** argv) {
   CLI::App app("wold grows a landscape from a text file and shows it.", "wold");
   app.set_version_flag("--version", "wold " WOLD_VERSION);
@@ -67,8 +83,12 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    complain(fmt::format("wold: error: {} See 'wold --help'.", error.what()));
+    complain(fmt::format("wold: error: {} See 'wold --help'.", complaint(app, error, argc, argv)));
     return exit_usage;
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    complain("wold: error: cannot write to standard output");
+    return exit_failed;
   }
   return 0;
 }

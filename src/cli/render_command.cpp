@@ -60,10 +60,12 @@ std::string size_override(const std::string& text) {
   const auto x = text.find_first_of("xX");
   const auto width = x == std::string::npos ? std::nullopt : number(text.substr(0, x));
   const auto height = x == std::string::npos ? std::nullopt : number(text.substr(x + 1));
-  if (!width || !height)
-    throw Error(
-        ErrorKind::usage,
-        fmt::format("'--size {}' must be width x height in pixels, such as 1280x720", text));
+  const auto good = [](std::optional<std::uint32_t> n) { return n && *n >= 1 && *n <= 65536; };
+  if (!good(width) || !good(height))
+    throw Error(ErrorKind::usage,
+                fmt::format("'--size {}' must be width x height in pixels, such as 1280x720, each "
+                            "1 to 65536",
+                            text));
   return fmt::format("render.size=[{}, {}]", *width, *height);
 }
 
@@ -117,7 +119,13 @@ class RenderRun {
     scene_ = read_scene(options_.scene, overrides);
     if (options_.samples.empty()) range_ = {0, static_cast<std::uint32_t>(scene_.render.samples)};
     (void)scene_.camera(options_.camera);
-    film_ = Film(scene_.render.size.x, scene_.render.size.y);
+    check_scene(scene_);
+    try {
+      film_ = Film(scene_.render.size.x, scene_.render.size.y);
+    } catch (const Error& error) {
+      if (!options_.size.empty()) throw;
+      throw error.at(scene_.location("render.size"));
+    }
   }
 
   void describe_scene(const BuiltScene& built) const {

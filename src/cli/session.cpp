@@ -7,9 +7,12 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <memory>
+
+#include "base/error.hpp"
 
 namespace wold {
 
@@ -17,6 +20,7 @@ namespace {
 
 constexpr int bar_width = 28;
 constexpr double line_interval = 5;  // s, in a pipe
+constexpr std::uint64_t largest_seed = 1ULL << 53U;
 constexpr double least_shown = 0.4;  // s; stages shorter than this are not worth a line
 
 std::string amounts(const ProgressReport& r) {
@@ -40,12 +44,12 @@ std::string bar(const ProgressReport& r) {
 /// On a terminal one line is drawn again and again.
 void draw(const ProgressReport& r) {
   if (r.finished) {
-    std::fputs("\r\033[K", stderr);
-    if (r.seconds >= least_shown) fmt::print(stderr, "{}: {}\n", r.stage, duration_text(r.seconds));
+    write_error("\r\033[K");
+    if (r.seconds >= least_shown)
+      write_error(fmt::format("{}: {}\n", r.stage, duration_text(r.seconds)));
   } else {
-    fmt::print(stderr, "\r{}\033[K", bar(r));
+    write_error(fmt::format("\r{}\033[K", bar(r)));
   }
-  std::fflush(stderr);
 }
 
 class LinePrinter {
@@ -53,7 +57,7 @@ class LinePrinter {
   void operator()(const ProgressReport& r) {
     if (r.finished) {
       if (r.seconds >= least_shown)
-        fmt::print(stderr, "{}: {}\n", r.stage, duration_text(r.seconds));
+        write_error(fmt::format("{}: {}\n", r.stage, duration_text(r.seconds)));
       last_ = 0;
       return;
     }
@@ -61,7 +65,7 @@ class LinePrinter {
     if (r.seconds - last_ < line_interval) return;
     last_ = r.seconds;
     const std::string share = r.total > 0 ? fmt::format(" {:.0f} %", 100 * r.done / r.total) : "";
-    fmt::print(stderr, "{}:{}{}\n", r.stage, share, amounts(r));
+    write_error(fmt::format("{}:{}{}\n", r.stage, share, amounts(r)));
   }
 
  private:
@@ -91,13 +95,20 @@ void Session::add_scene_options(CLI::App& command) {
 
 std::vector<std::string> Session::overrides() const {
   std::vector<std::string> list;
-  if (!seed.empty()) list.push_back("seed=" + seed);
+  if (!seed.empty()) {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(seed.data(), seed.data() + seed.size(), value);
+    if (error != std::errc() || end != seed.data() + seed.size() || value > largest_seed)
+      throw Error(ErrorKind::usage,
+                  fmt::format("'--seed {}' must be an integer, 0 to {}", seed, largest_seed));
+    list.push_back("seed=" + seed);
+  }
   list.insert(list.end(), settings.begin(), settings.end());
   return list;
 }
 
 void Session::say(const std::string& line) const {
-  if (!quiet) fmt::print(stderr, "{}\n", line);
+  if (!quiet) write_error(line + "\n");
 }
 
 Progress Session::progress() const {
@@ -108,7 +119,16 @@ Progress Session::progress() const {
 }
 
 void Session::print(const Json& report) const {
-  if (json) fmt::print("{}\n", report.dump(2));
+  if (json) write_output(report.dump(2) + "\n");
+}
+
+void write_error(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
+void write_output(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
 }
 
 std::string duration_text(double seconds) {

@@ -30,7 +30,8 @@ struct Session {
   /// Adds --seed and --set.
   void add_scene_options(CLI::App& command);
 
-  /// The overrides of --seed and --set, for the scene's reader.
+  /// The overrides of --seed and --set, for the scene's reader. Throws Error(usage) for a seed that
+  /// is none.
   std::vector<std::string> overrides() const;
   /// A line on standard error, unless quiet.
   void say(const std::string& line) const;
@@ -39,6 +40,11 @@ struct Session {
   /// Prints the one object of --json on standard output.
   void print(const Json& report) const;
 };
+
+/// Text on standard error. Never fails: a terminal that went away costs messages, not the picture.
+void write_error(const std::string& text);
+/// Text on standard output; main reports what could not be written.
+void write_output(const std::string& text);
 
 /// "1.2 s", "3 min 20 s".
 std::string duration_text(double seconds);

@@ -36,12 +36,17 @@ Vec3 direction_of(float azimuth, float elevation) {
           std::sin(elevation)};
 }
 
-Vec3 vector_of(const std::vector<double>& list, const char* name) {
-  if (list.size() != 3)
-    throw Error(ErrorKind::input,
-                fmt::format("'{}' of a camera has {} numbers, but must have 3: east, north, up",
-                            name, list.size()));
+/// Of a list that `check_camera` has passed.
+Vec3 vector_of(const std::vector<double>& list) {
   return {static_cast<float>(list[0]), static_cast<float>(list[1]), static_cast<float>(list[2])};
+}
+
+void check_length(const std::vector<double>& list, const char* name,
+                  std::initializer_list<std::size_t> allowed) {
+  if (std::find(allowed.begin(), allowed.end(), list.size()) != allowed.end()) return;
+  throw Error(ErrorKind::input,
+              fmt::format("'{}' in 'camera' is a list of {} numbers, but must be of {}", name,
+                          list.size(), fmt::join(allowed, " or ")));
 }
 
 float score_of(const ViewStatistics& v, float side_light, bool plants) {
@@ -104,9 +109,13 @@ class Finder {
                                      static_cast<double>(random(number, 1)));
     camera.position =
         Vec3(Vec2(place), ground.base(place).height + settings_.look_height * height_factor);
-    if (!settings_.position.empty()) camera.position = vector_of(settings_.position, "position");
-    if (!settings_.look_direction.empty()) {
-      camera.direction = glm::normalize(vector_of(settings_.look_direction, "look_direction"));
+    if (!settings_.position.empty()) camera.position = vector_of(settings_.position);
+    if (!settings_.target.empty()) {
+      camera.direction = vector_of(settings_.target) - camera.position;
+      const float distance = glm::length(camera.direction);
+      camera.direction = distance > 0 ? camera.direction / distance : Vec3(0, 1, 0);
+    } else if (!settings_.look_direction.empty()) {
+      camera.direction = glm::normalize(vector_of(settings_.look_direction));
     } else {
       const float elevation = radians(std::lerp(-9.0F, 5.0F, random(number, 3)));
       camera.direction = direction_of(2 * pi * random(number, 2), elevation);
@@ -167,6 +176,19 @@ Description<CameraSettings> describe(const CameraSettings&) {
       .add("focus", &C::focus, {.unit = "m", .min = 0.01, .max = 1e6}, "Distance that is sharp.");
 }
 
+void check_camera(const CameraSettings& c) {
+  check_length(c.position, "position", {0, 2, 3});
+  check_length(c.target, "target", {0, 3});
+  check_length(c.look_direction, "look_direction", {0, 3});
+  check_length(c.expected_height, "expected_height", {0, 1});
+  const bool no_direction =
+      (!c.look_direction.empty() && glm::length(vector_of(c.look_direction)) < 1e-6F) ||
+      (!c.target.empty() && c.target == c.position);
+  if (no_direction)
+    throw Error(ErrorKind::input,
+                "a camera looks nowhere: its look_direction is zero or its target is its position");
+}
+
 ViewStatistics look_around(const RayScene& scene, const Camera& camera, float aspect) {
   const CameraRays rays(camera, static_cast<int>(std::lround(1000 * aspect)), 1000);
   RayCount count;
@@ -218,6 +240,7 @@ bool shows_landscape(const ViewStatistics& v, bool plants) {
 
 Camera find_camera(const RayScene& scene, const CameraSettings& given, float aspect,
                    std::uint64_t seed, Progress& progress) {
+  check_camera(given);
   const Ground& ground = scene.world().ground;
   CameraSettings settings = given;
   if (settings.position.size() == 2) {
@@ -225,15 +248,6 @@ Camera find_camera(const RayScene& scene, const CameraSettings& given, float asp
     settings.position.push_back(
         static_cast<double>(ground.base(place).height + settings.look_height));
   }
-  if (!settings.target.empty() && !settings.position.empty()) {
-    const Vec3 d = vector_of(settings.target, "target") - vector_of(settings.position, "position");
-    settings.look_direction = {static_cast<double>(d.x), static_cast<double>(d.y),
-                               static_cast<double>(d.z)};
-  }
-  if (!settings.look_direction.empty() &&
-      glm::length(vector_of(settings.look_direction, "look_direction")) < 1e-6F)
-    throw Error(ErrorKind::input,
-                "a camera looks nowhere: its look_direction is zero or its target is its position");
   Camera camera;
   const Finder finder(scene, settings, aspect, seed);
   if (complete(settings)) {

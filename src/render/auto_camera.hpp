@@ -33,6 +33,9 @@ struct CameraSettings {
 
 Description<CameraSettings> describe(const CameraSettings&);
 
+/// Throws Error(input) for lists of the wrong length and a direction of no length.
+void check_camera(const CameraSettings& settings);
+
 /// What a camera sees, from a few hundred rays; shares are of the picture.
 struct ViewStatistics {
   float sky = 0;
@@ -51,8 +54,7 @@ ViewStatistics look_around(const RayScene& scene, const Camera& camera, float as
 bool shows_landscape(const ViewStatistics& view, bool plants);
 
 /// The camera of the settings: as given, or found. `scene` needs ground in even dicing and the
-/// larger plants. Throws Error(input) for lists of the wrong length and positions that are not
-/// finite.
+/// larger plants. Throws as `check_camera`.
 Camera find_camera(const RayScene& scene, const CameraSettings& settings, float aspect,
                    std::uint64_t seed, Progress& progress);
 
