@@ -12,6 +12,8 @@ namespace {
 constexpr std::uint32_t camera_pairs = 2;
 constexpr std::uint32_t bounce_pairs = 4;
 constexpr int first_roulette_bounce = 1;
+// Above 1 fewer paths end early: dark leaves and rock would be noisy otherwise.
+constexpr float roulette_factor = 2;
 // After a diffuse bounce texture is averaged over this share of the distance.
 constexpr float diffuse_spread = 0.15F;
 
@@ -179,7 +181,7 @@ PathSample trace_path(const RayScene& scene, const PathSettings& settings, const
     if (!(next.pdf > 0)) break;
     throughput *= next.weight;
     if (bounce >= first_roulette_bounce) {
-      const float survival = std::min(0.95F, largest(throughput));
+      const float survival = std::min(0.95F, roulette_factor * largest(throughput));
       if (choice.y >= survival) break;
       throughput /= survival;
     }

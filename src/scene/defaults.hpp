@@ -5,7 +5,7 @@ namespace wold {
 
 /// [[terrain.step]] of a scene without steps.
 extern const char* const default_steps;
-/// [[species]], [[scatter]] and [[material]] of a scene without species and scatter.
+/// [[species]] and [[scatter]] of a scene without steps and plants.
 extern const char* const default_forest;
 
 }  // namespace wold

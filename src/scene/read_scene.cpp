@@ -102,15 +102,15 @@ void insert_missing(toml::table& root, const char* toml_text,
     if (const toml::node* node = defaults.get(key)) root.insert_or_assign(key, *node);
 }
 
-/// Puts the default steps and plants into a document that has none, so that overrides find them.
+/// Puts the default steps into a document that has none, and plants into one that has neither steps
+/// nor plants, so that overrides find them.
 void add_defaults(toml::table& root) {
   toml::node* terrain = root.get("terrain");
   if (terrain == nullptr) terrain = &root.insert("terrain", toml::table{}).first->second;
   auto* table = terrain->as_table();
-  if (table != nullptr && !table->contains("step")) {
-    const toml::table defaults = parse_toml(default_steps, "default scene");
-    table->insert("step", *defaults["terrain"]["step"].as_array());
-  }
+  if (table == nullptr || table->contains("step")) return;
+  const toml::table defaults = parse_toml(default_steps, "default scene");
+  table->insert("step", *defaults["terrain"]["step"].as_array());
   if (!root.contains("species") && !root.contains("scatter") && !root.contains("grid"))
     insert_missing(root, default_forest, {"species", "scatter"});
 }

@@ -3,9 +3,8 @@
 //
 // Every section is a described struct (base/parameters.hpp); `scene_sections` lists them once, and
 // reading, checking, help, the reference pages and the JSON Schema follow from that list. What a
-// file leaves out has defaults: without any
-// [[terrain.step]] the land is rolling hills, without [[species]] and [[scatter]] a mixed forest
-// grows on it.
+// file leaves out has defaults: without any [[terrain.step]] the land is wooded hills, and if the
+// file plants nothing itself, a mixed forest grows on them.
 
 #include <cstdint>
 #include <filesystem>
