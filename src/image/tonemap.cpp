@@ -236,15 +236,11 @@ Image display_image(const Image& linear, const ToneMapping& mapping,
   const float scale = std::exp2(exposure_of(linear, mapping, weights));
   const ToneMap map(mapping.tone_map);
   const ColorChannels c = color_channels(linear);
-  const int alpha = linear.find("A");
-  std::vector<std::string> names{"R", "G", "B"};
-  if (alpha >= 0) names.emplace_back("A");
-  Image display(linear.width, linear.height, std::move(names));
+  Image display(linear.width, linear.height, {"R", "G", "B"});
   parallel_for(0, linear.height, [&](int y) {
     for (int x = 0; x < linear.width; ++x) {
       const Vec3 shown = map(scale * color_at(linear, x, y, c));
       for (int k = 0; k < 3; ++k) display.at(x, y, k) = linear_to_srgb(shown[k]);
-      if (alpha >= 0) display.at(x, y, 3) = std::clamp(linear.at(x, y, alpha), 0.0F, 1.0F);
     }
   });
   return display;

@@ -60,7 +60,7 @@ float measured_exposure(const Image& linear, std::span<const float> weights = {}
 float exposure_of(const Image& linear, const ToneMapping& mapping,
                   std::span<const float> weights = {});
 
-/// A picture with R, G, B (and A, if there is one) for a display, sRGB encoded, in [0, 1], to be
+/// A picture with R, G, B, opaque, for a display, sRGB encoded, in [0, 1], to be
 /// written with write_png {.bits = 8, .srgb = true, .dither = true}.
 Image display_image(const Image& linear, const ToneMapping& mapping,
                     std::span<const float> weights = {});

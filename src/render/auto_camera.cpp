@@ -17,8 +17,9 @@ namespace {
 constexpr int columns = 32;
 constexpr int rows = 18;
 constexpr int proposals = 480;
-constexpr float lens_clearance = 4;  // m, within which plants are in the way
-constexpr int depth_classes = 12;    // from 2 m up, doubling
+constexpr float lens_clearance = 4;   // m, within which plants are in the way
+constexpr float wall_distance = 250;  // m, within which ground above the horizon shuts the view
+constexpr int depth_classes = 12;     // from 2 m up, doubling
 
 struct Proposal {
   Camera camera;
@@ -53,7 +54,7 @@ float score_of(const ViewStatistics& v, float side_light, bool plants) {
   float score = 2.2F * bump(v.sky, 0.34F, 0.16F) + 1.2F * v.depth_variety +
                 0.9F * std::min(1.0F, v.far_share / 0.12F) +
                 0.7F * std::min(1.0F, v.skyline / 0.08F) + 0.6F * side_light + 0.8F * v.sky_above -
-                6 * v.near_share;
+                6 * v.near_share - 3 * v.wall;
   if (plants)
     score += 1.3F * bump(v.plants, 0.34F, 0.2F) + 0.6F * std::min(1.0F, v.middle_share / 0.2F);
   return score;
@@ -211,6 +212,7 @@ ViewStatistics look_around(const RayScene& scene, const Camera& camera, float as
       const bool plant = hit.instance != Hit::ground;
       (plant ? v.plants : v.ground) += 1;
       if (plant && hit.distance < lens_clearance) v.near_share += 1;
+      if (!plant && hit.distance < wall_distance && j < rows / 2) v.wall += 1;
       if (hit.distance > 30 && hit.distance < 400) v.middle_share += 1;
       if (hit.distance >= 400) v.far_share += 1;
       const int depth = static_cast<int>(std::log2(std::max(hit.distance, 2.0F) / 2));
@@ -218,7 +220,8 @@ ViewStatistics look_around(const RayScene& scene, const Camera& camera, float as
     }
   }
   constexpr float all = columns * rows;
-  for (float* share : {&v.sky, &v.ground, &v.plants, &v.near_share, &v.middle_share, &v.far_share})
+  for (float* share :
+       {&v.sky, &v.ground, &v.plants, &v.near_share, &v.middle_share, &v.far_share, &v.wall})
     *share /= all;
   v.sky_above /= static_cast<float>(columns * (rows / 4));
   for (const float number : classes) {

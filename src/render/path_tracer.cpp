@@ -100,7 +100,7 @@ Vec3 facing(Vec3 normal, Vec3 view_direction) {
 /// the first surface one of the two is chosen, each with probability 1/2: there a ray saved is
 /// worth more than the noise it costs.
 Vec3 direct_light(const RayScene& scene, const SurfacePoint& surface, const Bsdf& bsdf, bool both,
-                  Vec2 u_sun, Vec2 u_sky, RayCount& count) {
+                  bool last, Vec2 u_sun, Vec2 u_sky, RayCount& count) {
   const Sky& sky = scene.world().sky;
   const bool sun_only = !both && u_sky.x < 0.5F;
   const bool sky_only = !both && !sun_only;
@@ -115,7 +115,7 @@ Vec3 direct_light(const RayScene& scene, const SurfacePoint& surface, const Bsdf
     light += value;
   };
   if (!sky_only) add(sky.sample_sun(u_sun), false);
-  if (!sun_only) add(sky.sample_sky(both ? u_sky : Vec2(2 * u_sky.x - 1, u_sky.y)), true);
+  if (!sun_only) add(sky.sample_sky(both ? u_sky : Vec2(2 * u_sky.x - 1, u_sky.y)), !last);
   return both ? light : 2.0F * light;
 }
 
@@ -169,11 +169,12 @@ PathSample trace_path(const RayScene& scene, const PathSettings& settings, const
     const Bsdf bsdf(surface.normal, -ray.direction, surface.reflectance, surface.transmittance,
                     surface.roughness);
     sampler.skip_to(camera_pairs + static_cast<std::uint32_t>(bounce) * bounce_pairs);
+    const bool last = bounce >= settings.max_bounces;
     const Vec2 u_sun = sampler.next();
     const Vec2 u_sky = sampler.next();
     result.radiance +=
-        throughput * direct_light(scene, surface, bsdf, bounce == 0, u_sun, u_sky, count);
-    if (bounce >= settings.max_bounces) break;
+        throughput * direct_light(scene, surface, bsdf, bounce == 0, last, u_sun, u_sky, count);
+    if (last) break;
 
     const Vec2 u = sampler.next();
     const Vec2 choice = sampler.next();

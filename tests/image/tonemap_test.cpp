@@ -143,7 +143,7 @@ TEST(DisplayImage, IsEncodedAndTheSameOnAnyThreads) {
     image.pixels[k] = 3 * uniform(random_bits(3, k));
   const ThreadLimit one(1);
   const Image display = display_image(image, {});
-  EXPECT_EQ(display.channels, (std::vector<std::string>{"R", "G", "B", "A"}));
+  EXPECT_EQ(display.channels, (std::vector<std::string>{"R", "G", "B"}));
   for (const int threads : {2, 4}) {
     const ThreadLimit limit(threads);
     EXPECT_EQ(display_image(image, {}).pixels, display.pixels);
