@@ -95,7 +95,11 @@ class TerrainRun {
       if (preset_) check_engine_export(*preset_, output, window.width, window.height);
     }
     if (!options_.preview.empty()) check_picture_writable(options_.preview);
-    check_terrain(window, scene_.steps, scene_operators(), scene_.folder);
+    try {
+      check_terrain(window, scene_.steps, scene_operators(), scene_.folder);
+    } catch (const Error& error) {
+      throw error.at(scene_.location("terrain.resolution"));
+    }
   }
 
   /// An engine takes certain sizes only: without a word from the user, the nearest one.
