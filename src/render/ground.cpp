@@ -96,8 +96,8 @@ Ground::Ground(Heightfield field, Heightfield surroundings, GroundMaterial mater
       soil_({material.soil_color1, material.soil_color2, 0.35F, 1.1F}, ground_seed(seed, 4)),
       grass_({material.grass_color1, material.grass_color2, 0.8F, 0.9F}, ground_seed(seed, 5)),
       // Beds of rock: patches are wide and low.
-      rock_({material.rock_color1, material.rock_color2, material.rock_feature_size, 1.1F},
-            ground_seed(seed, 6), 0.25F),
+      rock_({material.rock_color1, material.rock_color2, material.rock_feature_size, 0.9F},
+            ground_seed(seed, 6), 0.5F),
       canopy_({material.canopy_color1, material.canopy_color2, 22, 1.3F}, ground_seed(seed, 9)) {
   const Heightfield& widest = surroundings_.height.empty() ? field_ : surroundings_;
   low_ = widest.origin;

@@ -27,7 +27,7 @@ struct GroundMaterial {
   Vec3 snow_color{0.80F, 0.83F, 0.88F};
   float grass_cover = 0.65F;      ///< share of the soil under grass and moss
   float patch_size = 9;           ///< m, of grass on soil
-  float rock_feature_size = 14;   ///< m
+  float rock_feature_size = 45;   ///< m
   Range rock_slope{33, 46};       ///< degrees: none below, all above
   Range rock_height{3000, 4000};  ///< m: none below, all above
   Range snow_height{6000, 7000};  ///< m: none below, all above
