@@ -7,13 +7,15 @@ namespace wold {
 
 namespace {
 
-/// Distance from the camera to the nearest point of a tile, taking its heights to lie within the
-/// ground's.
-double distance_to(const GroundTile& tile, const Vec3& eye, double ground_height) {
+/// About the distance from the camera to the nearest point of a tile. Its ground is taken to be as
+/// high as the higher of its middle and the place nearest to the camera.
+double distance_to(const GroundTile& tile, const Ground& ground, const Vec3& eye) {
   const DVec2 place(eye.x, eye.y);
   const DVec2 nearest = glm::clamp(place, tile.low, tile.low + DVec2(tile.size));
+  const float height =
+      std::max(ground.base(tile.low + DVec2(tile.size / 2)).height, ground.base(nearest).height);
   const double across = glm::distance(place, nearest);
-  const double above = std::max(0.0, static_cast<double>(eye.z) - ground_height);
+  const double above = std::max(0.0, static_cast<double>(eye.z - height));
   return std::hypot(across, across < tile.size ? 0.7 * above : above);
 }
 
@@ -39,9 +41,7 @@ struct Dicer {
   std::vector<GroundTile> tiles;
 
   double wanted_spacing(const GroundTile& tile) const {
-    const DVec2 middle = tile.low + DVec2(tile.size / 2);
-    const double distance =
-        distance_to(tile, camera.position, static_cast<double>(ground.base(middle).height));
+    const double distance = distance_to(tile, ground, camera.position);
     const bool seen = in_view(tile, ground, camera, half_angle);
     const double pixels =
         static_cast<double>(seen ? dicing.spacing_pixels : dicing.spacing_outside);
