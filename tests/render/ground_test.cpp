@@ -138,6 +138,23 @@ TEST(GroundMesh, SpacingIsAsFineAsTheViewAsks) {
   EXPECT_GT(seen, 50);
 }
 
+TEST(GroundMesh, IsFineUnderACameraOnASteepSlope) {
+  // The middle of a large tile is far below the camera, the ground at its feet is not.
+  Heightfield slope = testing::flat(1600);
+  for (int j = 0; j < 17; ++j)
+    for (int i = 0; i < 17; ++i) slope.height(i, j) = -200 * static_cast<float>(std::abs(i - 8));
+  const Ground ground(slope, {}, testing::plain(Vec3(0.5F)), 1);
+  Camera camera;
+  camera.position = Vec3(3, 7, ground.base({3, 7}).height + 2);
+  const CameraRays rays(camera, 64, 36);
+  const GroundDicing dicing;
+  for (const GroundTile& tile : dice_ground(ground, camera, rays, dicing)) {
+    const DVec2 place(camera.position.x, camera.position.y);
+    if (glm::clamp(place, tile.low, tile.low + DVec2(tile.size)) != place) continue;
+    EXPECT_LE(tile.spacing(), 2 * dicing.spacing_outside * rays.pixel_angle());
+  }
+}
+
 TEST(GroundMesh, NoMoreTilesThanAllowed) {
   const Ground ground = hilly_ground();
   GroundDicing dicing;
