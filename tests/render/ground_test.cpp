@@ -142,7 +142,7 @@ TEST(GroundMesh, IsFineUnderACameraOnASteepSlope) {
   // The middle of a large tile is far below the camera, the ground at its feet is not.
   Heightfield slope = testing::flat(1600);
   for (int j = 0; j < 17; ++j)
-    for (int i = 0; i < 17; ++i) slope.height(i, j) = -200 * static_cast<float>(std::abs(i - 8));
+    for (int i = 0; i < 17; ++i) slope.height(i, j) = -600 * static_cast<float>(std::abs(i - 8));
   const Ground ground(slope, {}, testing::plain(Vec3(0.5F)), 1);
   Camera camera;
   camera.position = Vec3(3, 7, ground.base({3, 7}).height + 2);
