@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* forest = R"(
 [terrain]
-size = 700
+size = 500
 resolution = 129
 [surroundings]
 factor = 3
