@@ -1,7 +1,7 @@
 // Rendering of scenes/forest.toml, and building of a scene with 100,000 trees.
 //
-// `embree` is the share of tracing time inside Embree: what is left is ours to make faster. The share
-// is measured with the processor's time stamp counter around each query.
+// `embree` is the share of tracing time inside Embree: what is left is ours to make faster. The
+// share is measured with the processor's time stamp counter around each query.
 
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
@@ -29,7 +29,8 @@ Scene forest(std::vector<std::string> overrides) {
   return read_scene(WOLD_SOURCE_DIR "/scenes/forest.toml", overrides);
 }
 
-/// Camera paths per second on all cores, and time from the start to the first sample of every pixel.
+/// Camera paths per second on all cores, and time from the start to the first sample of every
+/// pixel.
 void render_forest(benchmark::State& state) {
   const auto start = Clock::now();
   const Scene scene = forest({"render.size=[640, 360]"});

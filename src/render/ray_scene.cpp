@@ -103,7 +103,7 @@ Mat3 instance_matrix(const ModelInstance& instance) {
 ModelTrees::ModelTrees(std::span<const Model> models, Progress& progress)
     : device_(rtcNewDevice(nullptr)), scenes_(models.size()) {
   for (const Model& model : models) triangles_.push_back(model.mesh.triangles.size());
-  progress.begin("building plants' trees", static_cast<double>(models.size()), "models");
+  progress.begin("indexing plants", static_cast<double>(models.size()), "models");
   build_arena().execute([&] {
     parallel_for(0, static_cast<int>(models.size()), [&](int i) {
       const auto k = static_cast<std::size_t>(i);
@@ -122,7 +122,7 @@ RayScene::RayScene(const World& world, const ModelTrees& models,
   build_arena().execute([&] {
     add_ground(tiles, progress);
     add_instances(progress);
-    progress.begin("building the ray tracer's tree", 0, "");
+    progress.begin("indexing the scene", 0, "");
     commit(models_->device(), scene_.get(), RTC_BUILD_QUALITY_MEDIUM, progress);
     progress.end();
   });
