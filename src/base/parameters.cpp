@@ -108,6 +108,13 @@ std::string default_text(const Parameter& p, const void* defaults) {
   return text == "\"\"" ? "none" : text;
 }
 
+/// A bar would end the cell.
+std::string table_cell(const std::string& text) {
+  std::string cell;
+  for (const char c : text) cell += c == '|' ? std::string("\\|") : std::string(1, c);
+  return cell;
+}
+
 }  // namespace
 
 std::string Parameter::allowed() const {
@@ -179,7 +186,7 @@ std::string reference_markdown(const ParameterSet& set, const void* defaults) {
   text += "\n| parameter | default | allowed | what it does |\n|---|---|---|---|\n";
   for (const Parameter& p : set.parameters)
     text += fmt::format("| `{}` | `{}` | {} | {} |\n", p.name, default_text(p, defaults),
-                        p.allowed(), p.text);
+                        p.allowed(), table_cell(p.text));
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "image/atomic_file.hpp"
 #include "image/io.hpp"
 #include "process.hpp"
 #include "scene/scene.hpp"
@@ -91,6 +92,18 @@ TEST(Commands, ReferencePagesAreWritten) {
   for (const SceneSection& section : scene_sections())
     EXPECT_TRUE(contains(scene, "# " + section.defaults.parameters().name)) << section.path;
   EXPECT_TRUE(json::accept(place.read("pages/scene.schema.json")));
+}
+
+TEST(Commands, ReferenceInDocsIsUpToDate) {
+  const Workplace place;
+  std::filesystem::create_directory(place.path("pages"));
+  ASSERT_EQ(place.run({"help", "--write-reference", "pages"}).exit_code, 0);
+  for (const auto& page : std::filesystem::directory_iterator(place.path("pages"))) {
+    const std::filesystem::path name = page.path().filename();
+    const std::string kept = WOLD_SOURCE_DIR "/docs/reference/" + name.string();
+    ASSERT_TRUE(std::filesystem::exists(kept)) << name << ": run make docs";
+    EXPECT_EQ(place.read("pages/" + name.string()), read_file(kept)) << name << ": run make docs";
+  }
 }
 
 TEST(Commands, NewWritesASceneThatIsGoodAndKeepsWhatIsThere) {
