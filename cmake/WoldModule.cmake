@@ -24,3 +24,12 @@ function(wold_program name folder)
   list(TRANSFORM arg_USES PREPEND wold_)
   target_link_libraries(${name} PRIVATE wold_options ${arg_USES} ${arg_LIBRARIES})
 endfunction()
+
+# wold_example_scene(NAME FILE): builds the text of a scene file into the library wold_NAME.
+function(wold_example_scene name file)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${file})
+  file(READ ${CMAKE_SOURCE_DIR}/${file} WOLD_EXAMPLE_SCENE)
+  configure_file(${CMAKE_SOURCE_DIR}/cmake/example.cpp.in ${CMAKE_BINARY_DIR}/generated/example.cpp
+                 @ONLY)
+  target_sources(wold_${name} PRIVATE ${CMAKE_BINARY_DIR}/generated/example.cpp)
+endfunction()

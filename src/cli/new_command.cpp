@@ -5,28 +5,25 @@
 #include <CLI/Formatter.hpp>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include "base/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/session.hpp"
 #include "image/atomic_file.hpp"
-#include "scene/defaults.hpp"
+#include "scene/example.hpp"
 
 namespace wold {
 
 namespace {
 
+/// The example under a first line of its own.
 std::string scene_text(const std::string& name) {
+  const std::string_view example = example_scene;
   return fmt::format(
-      "# {}: a scene for wold. 'wold render {}.toml' makes its picture.\n"
-      "# 'wold help terrain', 'wold help ridged' and so on list what can be set.\n\n"
-      "wold = 1\nseed = 42\n\n"
-      "[terrain]\nsize = 3000          # m\nresolution = 1025\n\n"
-      "{}\n{}\n"
-      "[sky]\nplace = [49.2, 16.6]\ntime = 2026-06-21T18:30:00+02:00\n\n"
-      "[camera]\nlook_height = 1.8     # m above ground; give a position to choose the place\n\n"
-      "[render]\nsize = [1280, 720]\nsamples = 64\n",
-      name, name, default_steps, default_forest);
+      "# {}: a scene for wold. 'wold render {}.toml' makes its picture;\n"
+      "# 'wold help terrain', 'wold help ridged' and so on list what can be set.\n{}",
+      name, name, example.substr(example.find('\n') + 1));
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "image/atomic_file.hpp"
-#include "scene/defaults.hpp"
+#include "scene/example.hpp"
 #include "scene/scene.hpp"
 #include "scene/toml_values.hpp"
 #include "terrain/operators.hpp"
@@ -95,24 +95,18 @@ TerrainStep read_step(const toml::table& table) {
   return step;
 }
 
-void insert_missing(toml::table& root, const char* toml_text,
-                    std::initializer_list<const char*> keys) {
-  toml::table defaults = parse_toml(toml_text, "default scene");
-  for (const char* key : keys)
-    if (const toml::node* node = defaults.get(key)) root.insert_or_assign(key, *node);
-}
-
-/// Puts the default steps into a document that has none, and plants into one that has neither steps
-/// nor plants, so that overrides find them.
+/// Puts the example's steps into a document that has none, and its plants into one that has neither
+/// steps nor plants, so that overrides find them.
 void add_defaults(toml::table& root) {
   toml::node* terrain = root.get("terrain");
   if (terrain == nullptr) terrain = &root.insert("terrain", toml::table{}).first->second;
   auto* table = terrain->as_table();
   if (table == nullptr || table->contains("step")) return;
-  const toml::table defaults = parse_toml(default_steps, "default scene");
-  table->insert("step", *defaults["terrain"]["step"].as_array());
-  if (!root.contains("species") && !root.contains("scatter") && !root.contains("grid"))
-    insert_missing(root, default_forest, {"species", "scatter"});
+  const toml::table example = parse_toml(example_scene, "example scene");
+  table->insert("step", *example["terrain"]["step"].as_array());
+  if (root.contains("species") || root.contains("scatter") || root.contains("grid")) return;
+  for (const char* key : {"species", "scatter"})
+    root.insert_or_assign(key, *example[key].as_array());
 }
 
 /// Every name is there, and once.
