@@ -95,8 +95,11 @@ class RenderRun {
       interrupted = true;
     }
     const double render_seconds = since(render_start);
+    complete_ = !interrupted;
     write();
     report(built, counts, build_seconds, render_seconds, interrupted);
+    if (!failures_.empty())
+      throw Error(ErrorKind::io, fmt::format("{}", fmt::join(failures_, "; ")));
     if (interrupted)
       throw Error(
           ErrorKind::cancelled,
@@ -138,10 +141,11 @@ class RenderRun {
                              count_text(static_cast<double>(built.rays->unique_triangles())),
                              count_text(static_cast<double>(built.rays->all_triangles())),
                              plants.empty() ? "none" : plants));
-    session_.say(fmt::format(
-        "camera: position = [{:.1f}, {:.1f}, {:.1f}], look_direction = [{:.3f}, {:.3f}, {:.3f}]",
-        p.x, p.y, p.z, built.camera.direction.x, built.camera.direction.y,
-        built.camera.direction.z));
+    const Vec3 d = built.camera.direction;
+    session_.say(
+        fmt::format("[camera]\nposition = [{:.1f}, {:.1f}, {:.1f}]\n"
+                    "look_direction = [{:.3f}, {:.3f}, {:.3f}]",
+                    p.x, p.y, p.z, d.x, d.y, d.z));
   }
 
   double mean_samples() const {
@@ -171,26 +175,39 @@ class RenderRun {
                     {"wold.scene", std::filesystem::path(options_.scene).filename().string()},
                     {"wold.seed", std::to_string(scene_.header.seed)},
                     {"wold.samples", fmt::format("{}:{}", range_.first, range_.last)},
+                    {"wold.complete", complete_ ? "true" : "false"},
                     {"wold.whiteLuminance", fmt::format("{}", white_luminance)}};
     write_exr(path, image, exr);
   }
 
   /// What took minutes is not lost to a full disk: a picture that cannot be written where it was
-  /// wanted goes to the folder for temporary files.
+  /// wanted goes to the folder for temporary files, if it can.
   void write() {
     const Image image = film_.image();
     for (std::string& output : options_.outputs) {
       try {
         write_one(output, image);
       } catch (const Error& error) {
-        std::filesystem::path refuge =
-            std::filesystem::temp_directory_path() / std::filesystem::path(output).filename();
-        if (std::filesystem::exists(refuge)) throw;
-        write_one(refuge.string(), image);
-        session_.say(
-            fmt::format("wold: warning: {}; saved as {} instead", error.what(), refuge.string()));
-        output = refuge.string();
+        const std::string refuge = written_elsewhere(output, image);
+        failures_.push_back(refuge.empty()
+                                ? error.what()
+                                : fmt::format("{}; saved as '{}' instead", error.what(), refuge));
+        if (!refuge.empty()) output = refuge;
       }
+    }
+  }
+
+  /// The path where the picture could be written after all; empty if nowhere.
+  std::string written_elsewhere(const std::string& output, const Image& image) const {
+    std::error_code ignored;
+    const std::filesystem::path folder = std::filesystem::temp_directory_path(ignored);
+    const std::filesystem::path refuge = folder / std::filesystem::path(output).filename();
+    if (folder.empty() || std::filesystem::exists(refuge, ignored)) return {};
+    try {
+      write_one(refuge.string(), image);
+      return refuge.string();
+    } catch (const Error&) {
+      return {};
     }
   }
 
@@ -199,7 +216,7 @@ class RenderRun {
     if (film_.rejected() > 0)
       session_.say(fmt::format("wold: warning: {} samples were not finite and were left out",
                                film_.rejected()));
-    if (!interrupted)
+    if (!interrupted && failures_.empty())
       session_.say(fmt::format("wrote {} ({} x {}, {} samples, scene {}, rendering {})",
                                fmt::join(options_.outputs, " and "), film_.width(), film_.height(),
                                range_.last - range_.first, duration_text(build_seconds),
@@ -239,6 +256,8 @@ class RenderRun {
   Scene scene_;
   SampleRange range_;
   Film film_;
+  bool complete_ = false;              ///< every sample of the range was traced
+  std::vector<std::string> failures_;  ///< of writing
 };
 
 }  // namespace
@@ -257,8 +276,7 @@ void add_render(CLI::App& app, Session& session) {
       ->allow_extra_args(false);
   command->add_option("--size", options->size, "Size of the picture in pixels")->type_name("WxH");
   command
-      ->add_option("--samples", options->samples,
-                   "Light paths for each pixel, or a range of them to be merged later")
+      ->add_option("--samples", options->samples, "Light paths for each pixel, or a range of them")
       ->type_name("N|A:B");
   command->add_option("--camera", options->camera, "Which of the scene's cameras")
       ->type_name("NAME");

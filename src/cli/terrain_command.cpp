@@ -12,6 +12,8 @@
 #include "base/parallel.hpp"
 #include "cli/commands.hpp"
 #include "cli/session.hpp"
+#include "image/atomic_file.hpp"
+#include "image/io.hpp"
 #include "scene/build.hpp"
 #include "terrain/analysis.hpp"
 #include "terrain/engine_export.hpp"
@@ -30,13 +32,23 @@ struct TerrainOptions {
   std::string preview;
 };
 
-/// Slope in degrees and hillshade besides what the steps made: what every material in an engine
-/// wants.
+/// Slope and curvature besides what the steps made: what every material in an engine wants.
 std::map<std::string, Grid<float>> all_maps(const TerrainResult& terrain) {
   std::map<std::string, Grid<float>> maps = terrain.maps;
   maps.emplace("slope", slope_map(terrain.field));
   maps.emplace("curvature", curvature_map(terrain.field));
   return maps;
+}
+
+/// The folder may be missing, if the one above it is there.
+void check_folder(const std::string& folder) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(folder, ignored)) {
+    check_writable(folder + "/slope.exr");
+    return;
+  }
+  if (std::filesystem::exists(folder, ignored))
+    throw Error(ErrorKind::io, fmt::format("cannot write maps into '{}': it is no folder", folder));
 }
 
 void write_preview(const std::string& path, const Heightfield& field) {
@@ -94,7 +106,9 @@ class TerrainRun {
       check_export(output);
       if (preset_) check_engine_export(*preset_, output, window.width, window.height);
     }
-    if (!options_.preview.empty()) check_picture_writable(options_.preview);
+    static const std::vector<std::string> preview_extensions{".png"};
+    if (!options_.preview.empty()) check_writable(options_.preview, preview_extensions);
+    if (!options_.maps.empty()) check_folder(options_.maps);
     try {
       check_terrain(window, scene_.steps, scene_operators(), scene_.folder);
     } catch (const Error& error) {

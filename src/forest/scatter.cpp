@@ -299,7 +299,9 @@ Description<ScatterSettings> describe(const ScatterSettings&) {
       .add("patch_size", &S::patch_size, {.unit = "m", .min = 0.01, .max = 100000},
            "From group to group.")
       .include(&S::where)
-      .add("mask", &S::mask, "Picture over the whole terrain: white full density, black nothing.")
+      .add("mask", &S::mask,
+           "A map that a terrain step makes, or a picture over the whole terrain: 1 or white full "
+           "density.")
       .add("scale", &S::scale, {.min = 0.001, .max = 1000}, "Size of plants against their models.")
       .add("align", &S::align, {.min = 0, .max = 1},
            "0: stems upright; 1: at right angles to the ground.")

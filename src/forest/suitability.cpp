@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/smoothstep.hpp"
 #include "noise/noise.hpp"
 
 namespace wold {
@@ -11,12 +12,6 @@ namespace {
 
 constexpr Range any_slope{0, 90};
 constexpr Range any_height{-12000, 9000};
-
-float smoothstep(float low, float high, float x) {
-  if (!(high > low)) return x < low ? 0.0F : 1.0F;
-  const float t = std::clamp((x - low) / (high - low), 0.0F, 1.0F);
-  return t * t * (3 - 2 * t);
-}
 
 /// 1 inside, 0 outside, soft within `softness` inside the ends that exclude something.
 float inside(float x, Range range, Range any, float softness) {

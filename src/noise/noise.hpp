@@ -10,7 +10,7 @@
 // [-1, 1], never leave it, and are twice continuously differentiable.
 //
 // Positions are in lattice units (one feature per unit), in double so that places 100 km from the
-// origin keep their detail. The GLSL twins are in src/shaders/noise.glsl.
+// origin keep their detail.
 
 #include <cstdint>
 

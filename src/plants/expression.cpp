@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/hash.hpp"
+#include "base/smoothstep.hpp"
 #include "base/vec.hpp"
 
 namespace wold {
@@ -48,11 +49,6 @@ double standard_normal(std::uint64_t bits) {
   const double u = 1 - uniform_double(bits);
   const double v = uniform_double(mix_bits(bits));
   return std::clamp(std::sqrt(-2 * std::log(u)) * std::cos(2 * pi_d * v), -3.0, 3.0);
-}
-
-double smoothstep(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
 }
 
 double apply_unary(Operation operation, double a) {

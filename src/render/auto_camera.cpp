@@ -50,6 +50,38 @@ void check_length(const std::vector<double>& list, const char* name,
                           list.size(), fmt::join(allowed, " or ")));
 }
 
+/// The camera of the settings, with a position and a direction where they give none; without tilt.
+Camera aimed(const Ground& ground, const CameraSettings& s, Vec3 position, Vec3 direction) {
+  Camera camera;
+  camera.field_of_view = s.field_of_view;
+  camera.aperture = s.aperture;
+  camera.focus = s.focus;
+  camera.position = position;
+  camera.direction = direction;
+  if (s.position.size() == 2) {
+    const DVec2 place(s.position[0], s.position[1]);
+    camera.position = Vec3(Vec2(place), ground.base(place).height + s.look_height);
+  } else if (!s.position.empty()) {
+    camera.position = vector_of(s.position);
+  }
+  if (!s.target.empty()) {
+    const Vec3 towards = vector_of(s.target) - camera.position;
+    const float distance = glm::length(towards);
+    camera.direction = distance > 0 ? towards / distance : Vec3(0, 1, 0);
+  } else if (!s.look_direction.empty()) {
+    camera.direction = glm::normalize(vector_of(s.look_direction));
+  }
+  return camera;
+}
+
+Camera tilted(Camera camera, float tilt) {
+  if (tilt == 0) return camera;
+  const float elevation = std::asin(std::clamp(camera.direction.z, -1.0F, 1.0F)) + radians(tilt);
+  const float azimuth = std::atan2(camera.direction.y, camera.direction.x);
+  camera.direction = direction_of(azimuth, std::clamp(elevation, -0.4999F * pi, 0.4999F * pi));
+  return camera;
+}
+
 float score_of(const ViewStatistics& v, float side_light, bool plants) {
   float score = 2.2F * bump(v.sky, 0.34F, 0.16F) + 1.2F * v.depth_variety +
                 0.9F * std::min(1.0F, v.far_share / 0.12F) +
@@ -101,27 +133,13 @@ class Finder {
     const double offset =
         std::min(static_cast<double>(settings_.edge_min_offset), 0.4 * std::min(size.x, size.y));
     const DVec2 room = size - 2 * offset;
-    Camera camera;
-    camera.field_of_view = settings_.field_of_view;
-    camera.aperture = settings_.aperture;
-    camera.focus = settings_.focus;
     const DVec2 place = ground.field().origin + offset +
                         room * DVec2(static_cast<double>(random(number, 0)),
                                      static_cast<double>(random(number, 1)));
-    camera.position =
-        Vec3(Vec2(place), ground.base(place).height + settings_.look_height * height_factor);
-    if (!settings_.position.empty()) camera.position = vector_of(settings_.position);
-    if (!settings_.target.empty()) {
-      camera.direction = vector_of(settings_.target) - camera.position;
-      const float distance = glm::length(camera.direction);
-      camera.direction = distance > 0 ? camera.direction / distance : Vec3(0, 1, 0);
-    } else if (!settings_.look_direction.empty()) {
-      camera.direction = glm::normalize(vector_of(settings_.look_direction));
-    } else {
-      const float elevation = radians(std::lerp(-9.0F, 5.0F, random(number, 3)));
-      camera.direction = direction_of(2 * pi * random(number, 2), elevation);
-    }
-    return camera;
+    const Vec3 position(Vec2(place),
+                        ground.base(place).height + settings_.look_height * height_factor);
+    const float elevation = radians(std::lerp(-9.0F, 5.0F, random(number, 3)));
+    return aimed(ground, settings_, position, direction_of(2 * pi * random(number, 2), elevation));
   }
 
   const RayScene& scene_;
@@ -143,10 +161,6 @@ Proposal best_of(const Finder& finder, float height_factor, Progress& progress) 
     return a.landscape != b.landscape ? b.landscape : a.score < b.score;
   };
   return *std::max_element(list.begin(), list.end(), worse);
-}
-
-bool complete(const CameraSettings& s) {
-  return !s.position.empty() && (!s.target.empty() || !s.look_direction.empty());
 }
 
 }  // namespace
@@ -241,35 +255,25 @@ bool shows_landscape(const ViewStatistics& v, bool plants) {
          v.sky_above >= 0.2F && (!plants || v.plants >= 0.04F);
 }
 
-Camera find_camera(const RayScene& scene, const CameraSettings& given, float aspect,
+bool is_placed(const CameraSettings& s) {
+  return !s.position.empty() && (!s.target.empty() || !s.look_direction.empty());
+}
+
+Camera placed_camera(const Ground& ground, const CameraSettings& settings) {
+  check_camera(settings);
+  return tilted(aimed(ground, settings, Vec3(0), Vec3(0, 1, 0)), settings.tilt);
+}
+
+Camera find_camera(const RayScene& scene, const CameraSettings& settings, float aspect,
                    std::uint64_t seed, Progress& progress) {
-  check_camera(given);
-  const Ground& ground = scene.world().ground;
-  CameraSettings settings = given;
-  if (settings.position.size() == 2) {
-    const DVec2 place(settings.position[0], settings.position[1]);
-    settings.position.push_back(
-        static_cast<double>(ground.base(place).height + settings.look_height));
-  }
-  Camera camera;
+  if (is_placed(settings)) return placed_camera(scene.world().ground, settings);
+  check_camera(settings);
   const Finder finder(scene, settings, aspect, seed);
-  if (complete(settings)) {
-    camera = finder.judged(0, 1).camera;
-  } else {
-    Proposal best = best_of(finder, 1, progress);
-    // Dense forest may hide everything from its floor: then the camera is raised.
-    for (float factor = 4; !best.landscape && factor <= 64 && settings.position.empty();
-         factor *= 4)
-      best = best_of(finder, factor, progress);
-    camera = best.camera;
-  }
-  if (settings.tilt != 0) {
-    const float elevation =
-        std::asin(std::clamp(camera.direction.z, -1.0F, 1.0F)) + radians(settings.tilt);
-    const float azimuth = std::atan2(camera.direction.y, camera.direction.x);
-    camera.direction = direction_of(azimuth, std::clamp(elevation, -0.4999F * pi, 0.4999F * pi));
-  }
-  return camera;
+  Proposal best = best_of(finder, 1, progress);
+  // Dense forest may hide everything from its floor: then the camera is raised.
+  for (float factor = 4; !best.landscape && factor <= 64 && settings.position.empty(); factor *= 4)
+    best = best_of(finder, factor, progress);
+  return tilted(best.camera, settings.tilt);
 }
 
 }  // namespace wold

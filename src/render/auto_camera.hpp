@@ -54,6 +54,12 @@ ViewStatistics look_around(const RayScene& scene, const Camera& camera, float as
 /// Whether a view shows ground and sky and, if `plants` are in the world, plants.
 bool shows_landscape(const ViewStatistics& view, bool plants);
 
+/// Whether the settings leave nothing to choose.
+bool is_placed(const CameraSettings& settings);
+
+/// The camera of settings that leave nothing to choose. Throws as `find_camera`.
+Camera placed_camera(const Ground& ground, const CameraSettings& settings);
+
 /// The camera of the settings: as given, or found. `scene` needs ground in even dicing and the
 /// larger plants. Throws as `check_camera`.
 Camera find_camera(const RayScene& scene, const CameraSettings& settings, float aspect,

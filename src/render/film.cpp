@@ -27,7 +27,9 @@ std::uint64_t sum_over(const Pixels& pixels, const Value& value) {
 }  // namespace
 
 Film::Film(int width, int height) {
-  const double bytes = static_cast<double>(width) * height * sizeof(Pixel);
+  // What writing will need beside the film: the picture with its layers, and a copy for its file.
+  constexpr double bytes_to_write = 2 * 12 * sizeof(float);
+  const double bytes = static_cast<double>(width) * height * (sizeof(Pixel) + bytes_to_write);
   const auto free = static_cast<double>(available_memory());
   if (free > 0 && bytes > 0.9 * free)
     throw Error(ErrorKind::limit, "a picture of " + std::to_string(width) + " x " +

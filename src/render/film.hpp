@@ -10,8 +10,8 @@
 
 namespace wold {
 
-/// Luminance that a picture stores as 1, cd/m² (the EXR attribute `whiteLuminance`): sunlit snow is
-/// near 3.
+/// Luminance that a picture stores as 1, cd/m² (in EXR files the attribute `wold.whiteLuminance`):
+/// sunlit snow is near 3.
 inline constexpr float white_luminance = 10000;
 
 /// What one light path brings to its pixel.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/hash.hpp"
+#include "base/smoothstep.hpp"
 #include "noise/fractal.hpp"
 
 namespace wold {
@@ -24,12 +25,6 @@ constexpr float crown_height = 6;
 constexpr float wood_height = 11;
 constexpr float steepest_wood = 42;  // degrees
 constexpr float least_footprint = 0.004F;
-
-float smoothstep(float low, float high, float x) {
-  if (high <= low) return x < low ? 0.0F : 1.0F;
-  const float t = std::clamp((x - low) / (high - low), 0.0F, 1.0F);
-  return t * t * (3 - 2 * t);
-}
 
 float slope_degrees(Vec2 gradient) {
   return degrees(std::atan(glm::length(gradient)));
@@ -203,7 +198,8 @@ GroundSurface Ground::surface(DVec2 place, float footprint) const {
     if (c.rock > 0) color += c.rock * (1 + 0.3F * c.grain) * rock_.at(p, width);
   }
   if (c.canopy > 0) color = glm::mix(color, canopy_.at(p, width), c.canopy);
-  out.reflectance = glm::mix(color, material_.snow_color, c.snow);
+  // Noise may brighten what is bright already beyond what a surface can reflect.
+  out.reflectance = glm::clamp(glm::mix(color, material_.snow_color, c.snow), 0.0F, 0.95F);
   return out;
 }
 

@@ -44,7 +44,6 @@ Description<GroundMaterial> describe(const GroundMaterial&);
 struct GroundSurface {
   Vec3 normal{0, 0, 1};  ///< unit
   Vec3 reflectance{0};
-  float roughness = 0;  ///< of a coat; 0 for none
 };
 
 class Ground {

@@ -77,13 +77,15 @@ std::vector<GroundTile> roots(const Ground& ground) {
 
 std::vector<GroundTile> dice_ground(const Ground& ground, const Camera& camera,
                                     const CameraRays& rays, const GroundDicing& dicing) {
-  const float half_angle = radians(camera.field_of_view) * 0.6F;
+  const Vec3 corner = rays.ray(Vec2(0), Vec2(0.5F)).direction;
+  const float cosine = glm::dot(corner, glm::normalize(camera.direction));
+  const float half_angle = 1.05F * std::acos(std::clamp(cosine, -1.0F, 1.0F));
   GroundDicing coarser = dicing;
   for (;;) {
     Dicer dicer{ground, camera, coarser, rays.pixel_angle(), half_angle, {}};
     bool complete = true;
     for (const GroundTile& root : roots(ground)) complete = complete && dicer.dice(root);
-    if (complete) return std::move(dicer.tiles);
+    if (complete || roots(ground).size() >= dicing.most_tiles) return std::move(dicer.tiles);
     coarser.spacing_pixels *= 1.3F;
     coarser.spacing_outside *= 1.3F;
     coarser.least_spacing *= 1.3F;

@@ -52,7 +52,7 @@ Description<Material> describe(const Material&) {
       .add("roughness", &Material::roughness, {.min = 0, .max = 1},
            "Roughness of the waxy coat; 0 for no coat.")
       .add("variation", &Material::variation, {.min = 0, .max = 1},
-           "Difference of colour between individuals and leaves.");
+           "Difference of colour between leaves; a species' tint is that between plants.");
 }
 
 std::span<const Material> standard_materials() {
@@ -157,8 +157,9 @@ std::span<const Material> standard_materials() {
   return list;
 }
 
-SurfaceMaterial::SurfaceMaterial(const Material& material)
+SurfaceMaterial::SurfaceMaterial(const Material& material, float tint)
     : material_(material),
+      tint_(tint),
       texture_({material.color1, material.color2, material.feature_size, material.contrast},
                static_cast<std::uint32_t>(hash_text(material.name)), material.stretch) {}
 
@@ -169,7 +170,8 @@ SurfaceColor SurfaceMaterial::at(Vec3 p, float footprint, std::uint32_t individu
   // Each individual has a piece of the texture of its own.
   const Vec3 place = p + 100.0F * Vec3(uniform(bits), uniform(mix_bits(bits)), 0);
   Vec3 own{1};
-  if (m.variation > 0) own = tint(bits, m.variation) * tint(random_bits(bits, leaf), m.variation);
+  if (tint_ > 0) own *= tint(bits, tint_);
+  if (m.variation > 0) own *= tint(random_bits(bits, leaf), m.variation);
   SurfaceColor c;
   c.reflectance = texture_.at(place, footprint) * own;
   c.transmittance = m.transmission * own;

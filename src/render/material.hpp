@@ -45,7 +45,7 @@ struct Material {
   float stretch = 1;       ///< features this much longer along the stem than across
   Vec3 transmission{0};    ///< diffuse transmittance of a thin sheet
   float roughness = 0;     ///< of the coat; 0 for none
-  float variation = 0.1F;  ///< of brightness and hue, between individuals and between leaves
+  float variation = 0.1F;  ///< of brightness and hue, between leaves
 };
 
 Description<Material> describe(const Material&);
@@ -62,7 +62,8 @@ struct SurfaceColor {
 /// A material ready to be looked up.
 class SurfaceMaterial {
  public:
-  explicit SurfaceMaterial(const Material& material);
+  /// `tint` is the difference between individuals, as `variation` is that between leaves.
+  explicit SurfaceMaterial(const Material& material, float tint = 0);
 
   float roughness() const { return material_.roughness; }
   const Material& settings() const { return material_; }
@@ -71,6 +72,7 @@ class SurfaceMaterial {
 
  private:
   Material material_;
+  float tint_;
   TwoColorTexture texture_;
 };
 

@@ -36,6 +36,12 @@ float clearance(Vec3 position) {
   return 2e-4F + 4e-7F * std::max({a.x, a.y, a.z});
 }
 
+/// Whether light may pass between the surface and a direction: not through what is opaque, wherever
+/// the normal for shading points.
+bool open_to(const SurfacePoint& s, Vec3 direction) {
+  return !black(s.transmittance) || glm::dot(direction, s.geometric_normal) > 0;
+}
+
 Ray leaving(const SurfacePoint& s, Vec3 direction) {
   const float side = glm::dot(direction, s.geometric_normal) < 0 ? -1.0F : 1.0F;
   return {s.position + side * clearance(s.position) * s.geometric_normal, direction};
@@ -84,7 +90,6 @@ SurfacePoint ground_surface(const World& world, const Hit& hit, Vec3 view_direct
       world.ground.surface(DVec2(hit.position.x, hit.position.y), footprint);
   s.normal = ground.normal;
   s.reflectance = ground.reflectance;
-  s.roughness = ground.roughness;
   return s;
 }
 
@@ -106,7 +111,7 @@ Vec3 direct_light(const RayScene& scene, const SurfacePoint& surface, const Bsdf
   const bool sky_only = !both && !sun_only;
   Vec3 light(0);
   const auto add = [&](const SkySample& sample, bool by_bsdf_too) {
-    if (!(sample.pdf > 0)) return;
+    if (!(sample.pdf > 0) || !open_to(surface, sample.direction)) return;
     Vec3 value = bsdf.evaluate(sample.direction) * sample.radiance / sample.pdf;
     if (black(value)) return;
     if (by_bsdf_too) value *= power_heuristic(sample.pdf, bsdf.pdf(sample.direction));
@@ -179,7 +184,7 @@ PathSample trace_path(const RayScene& scene, const PathSettings& settings, const
     const Vec2 u = sampler.next();
     const Vec2 choice = sampler.next();
     const BsdfSample next = bsdf.sample(u, choice.x);
-    if (!(next.pdf > 0)) break;
+    if (!(next.pdf > 0) || !open_to(surface, next.direction)) break;
     throughput *= next.weight;
     if (bounce >= first_roulette_bounce) {
       const float survival = std::min(0.95F, roulette_factor * largest(throughput));

@@ -40,8 +40,8 @@ TerrainWindow surrounding_window(const Scene& scene, const TerrainWindow& inner)
   const DVec2 middle = inner.origin + 0.5 * inner_size;
   TerrainWindow window;
   window.cell = std::max(size.x, size.y) / (scene.surroundings.resolution - 1);
-  window.width = static_cast<int>(std::lround(size.x / window.cell)) + 1;
-  window.height = static_cast<int>(std::lround(size.y / window.cell)) + 1;
+  window.width = std::max(2, static_cast<int>(std::ceil(size.x / window.cell - 1e-6)) + 1);
+  window.height = std::max(2, static_cast<int>(std::ceil(size.y / window.cell - 1e-6)) + 1);
   window.origin = middle - 0.5 * window.cell * DVec2(window.width - 1, window.height - 1);
   return window;
 }
@@ -58,6 +58,7 @@ Heightfield build_surroundings(const Scene& scene, Progress& progress) {
 Camera choose_camera(const Scene& scene, const CameraSettings& settings, const BuiltScene& built,
                      Progress& progress) {
   const Ground& ground = built.world->ground;
+  if (is_placed(settings)) return placed_camera(ground, settings);
   World landmarks{ground, {}, {}, {}, built.world->sky};
   std::vector<float> heights;
   for (const Model& model : built.world->models) heights.push_back(model.mesh.bounds().high.z);
@@ -69,6 +70,17 @@ Camera choose_camera(const Scene& scene, const CameraSettings& settings, const B
   const float aspect =
       static_cast<float>(scene.render.size.x) / static_cast<float>(scene.render.size.y);
   return find_camera(rays, settings, aspect, scene.header.seed, progress);
+}
+
+/// Plants stand on the field; near the camera the ground is drawn with more detail than it has.
+/// `spacing_angle`: distance between samples of the drawn ground over distance from the eye.
+void set_on_drawn_ground(World& world, Vec3 eye, float spacing_angle) {
+  parallel_for(0, static_cast<int>(world.instances.size()), [&](int k) {
+    Vec3& foot = world.instances[static_cast<std::size_t>(k)].position;
+    const DVec2 place(foot.x, foot.y);
+    const float spacing = spacing_angle * glm::distance(foot, eye);
+    foot.z += world.ground.detailed(place, spacing).height - world.ground.base(place).height;
+  });
 }
 
 /// Without trees in the scene there are none in the distance.
@@ -158,11 +170,13 @@ BuiltScene build(const Scene& scene, const std::string& camera, Progress& progre
   built.camera = timed(built.seconds, "camera",
                        [&] { return choose_camera(scene, settings, built, progress); });
   plant(Planting::near_camera);
+  const CameraRays rays(built.camera, scene.render.size.x, scene.render.size.y);
+  set_on_drawn_ground(*built.world, built.camera.position,
+                      scene.render.dicing * rays.pixel_angle());
   built.rays = timed(built.seconds, "ray tracer", [&] {
     GroundDicing dicing;
     dicing.spacing_pixels = scene.render.dicing;
     dicing.spacing_outside = 5 * scene.render.dicing;
-    const CameraRays rays(built.camera, scene.render.size.x, scene.render.size.y);
     return std::make_unique<RayScene>(*built.world, *built.models,
                                       dice_ground(built.world->ground, built.camera, rays, dicing),
                                       progress);

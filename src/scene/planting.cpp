@@ -34,10 +34,11 @@ class Materials {
  public:
   explicit Materials(const Scene& scene) : scene_(scene) {}
 
-  std::uint32_t index_of(const std::string& species, const std::string& part, const Plant& plant) {
-    const std::string key = species + "." + part;
+  std::uint32_t index_of(const SpeciesSettings& species, const std::string& part,
+                         const Plant& plant) {
+    const std::string key = species.name + "." + part;
     if (const auto found = index_.find(key); found != index_.end()) return found->second;
-    list.emplace_back(find(key, part, plant));
+    list.emplace_back(find(key, part, plant), species.tint);
     const auto index = static_cast<std::uint32_t>(list.size() - 1);
     index_.emplace(key, index);
     return index;
@@ -75,12 +76,14 @@ void check_mask(const Scene& scene, const ScatterSettings& settings,
   const std::string& mask = settings.mask.path;
   if (mask.empty()) return;
   std::vector<std::string> known;
-  for (const TerrainStep& step : scene.steps)
+  for (const TerrainStep& step : scene.steps) {
+    if (!step.settings.enabled) continue;
     for (const std::string& map : find_operator(operators, step.op, step.location).maps) {
       known.push_back(map);
       if (!step.settings.name.empty())
         known.push_back(map == "mask" ? step.settings.name : step.settings.name + "." + map);
     }
+  }
   if (std::find(known.begin(), known.end(), mask) != known.end()) return;
   if (std::filesystem::path(mask).has_extension()) {
     find_scene_file(mask, scene.folder);
@@ -103,7 +106,7 @@ PlantModels build_models(const Scene& scene, Progress& progress) {
       Model model;
       for (const MeshPart& part : mesh.parts)
         model.part_materials.push_back(
-            materials.index_of(species.settings.name, part.material, species.plant));
+            materials.index_of(species.settings, part.material, species.plant));
       model.mesh = std::move(mesh);
       models.list.push_back(std::move(model));
     }

@@ -17,8 +17,7 @@ const std::vector<std::string> step_key{"step"};
 
 [[noreturn]] void unknown_section(std::string_view name, const SourceLocation& where) {
   std::vector<std::string> known{"wold", "seed"};
-  for (const SceneSection& section : scene_sections())
-    if (section.path.find('.') == std::string::npos) known.push_back(section.path);
+  for (const SceneSection& section : scene_sections()) known.push_back(section.path);
   throw Error(ErrorKind::input,
               fmt::format("unknown section or key '{}'.{}", name, suggestion(name, known)), where);
 }

@@ -85,8 +85,8 @@ Scene read_scene(const std::filesystem::path& file, std::span<const std::string>
 Scene parse_scene(const std::string& text, const std::string& source,
                   const std::filesystem::path& folder, std::span<const std::string> overrides = {});
 
-/// A file that a scene names: in its folder, else in the current one, else in the folders that come
-/// with wold. Throws Error(io) that lists where it was sought.
+/// A file that a scene names: in its folder, else in the folder above, else in the current one,
+/// else among the files that come with wold. Throws Error(io).
 std::filesystem::path find_scene_file(const std::string& path, const std::filesystem::path& folder);
 
 /// JSON Schema (draft 2020-12) of scene files, for completion in editors.

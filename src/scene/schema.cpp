@@ -75,6 +75,11 @@ Json object(const ParameterSet& set, const void* defaults) {
           {"additionalProperties", false}};
 }
 
+/// A section that may be written once, [name], or more often, [[name]].
+Json one_or_more(const Json& section) {
+  return {{"anyOf", {section, {{"type", "array"}, {"items", section}}}}};
+}
+
 /// One alternative per operator, told apart by `op`.
 Json step_json() {
   const StepSettings common;
@@ -88,7 +93,7 @@ Json step_json() {
     step["required"] = {"op"};
     alternatives.push_back(std::move(step));
   }
-  return {{"type", "array"}, {"items", {{"oneOf", std::move(alternatives)}}}};
+  return one_or_more({{"oneOf", std::move(alternatives)}});
 }
 
 }  // namespace
@@ -99,8 +104,7 @@ std::string scene_schema() {
   for (const SceneSection& section : scene_sections()) {
     Json json = object(section.defaults.parameters(), section.defaults.data());
     if (section.path == "terrain") json["properties"]["step"] = step_json();
-    root["properties"][section.path] =
-        section.repeated ? Json{{"type", "array"}, {"items", std::move(json)}} : std::move(json);
+    root["properties"][section.path] = section.repeated ? one_or_more(json) : std::move(json);
   }
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "wold scene"}};
   schema.update(root);

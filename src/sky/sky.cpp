@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/parallel.hpp"
+#include "base/smoothstep.hpp"
 #include "sky/preetham.hpp"
 #include "sky/spectrum.hpp"
 #include "sky/sunlight.hpp"
@@ -26,11 +27,6 @@ constexpr double measured_share = 0.55;
 constexpr double haze_over_plain = 0.03;  // optical depth straight down: eye 300 m up, 10 km of air
 constexpr double night_luminance = 1e-3;  // cd/m², stars and airglow, rather bright
 constexpr DVec3 night_colour{0.55, 0.85, 3.8};  // luminance 1
-
-double smoothstep(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 // The table's coordinates need no trigonometry to look up. Around the compass, "diamond angle":
 // along each quadrant y / (|x| + |y|), 0 to 1. Up and down, s with s² = |z| / (|z| + across).

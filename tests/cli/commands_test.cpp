@@ -63,11 +63,15 @@ TEST(Commands, SchemaHasEveryParameter) {
   EXPECT_EQ(schema["type"], "object");
   for (const SceneSection& section : scene_sections()) {
     json object = schema["properties"][section.path];
-    if (section.repeated) object = object["items"];
+    if (section.repeated) {
+      // Written once, [camera], or more often, [[camera]].
+      EXPECT_EQ(object["anyOf"][1]["items"], object["anyOf"][0]) << section.path;
+      object = object["anyOf"][0];
+    }
     for (const std::string& name : section.defaults.parameters().names())
       EXPECT_TRUE(object["properties"].contains(name)) << section.path << '.' << name;
   }
-  const json steps = schema["properties"]["terrain"]["properties"]["step"]["items"]["oneOf"];
+  const json steps = schema["properties"]["terrain"]["properties"]["step"]["anyOf"][0]["oneOf"];
   ASSERT_EQ(steps.size(), scene_operators().size());
   for (std::size_t k = 0; k < steps.size(); ++k) {
     const TerrainOperator op = scene_operators()[k];

@@ -150,6 +150,8 @@ Outcome Workplace::interrupt(const std::vector<std::string>& arguments, int sign
   int status = 0;
   const auto ready = [&] {
     if (since(begun) < seconds) return false;
+    // A sign that never comes must not hang the tests.
+    if (since(begun) > 60) return true;
     return sign.empty() || text_of(err).find(sign) != std::string::npos;
   };
   while (!ready()) {

@@ -187,7 +187,7 @@ class Interrupted : public ::testing::TestWithParam<int> {};
 TEST_P(Interrupted, RenderSavesThePictureSoFar) {
   const Workplace place;
   const Words words{"render", "scene.toml", "-o", "a.exr", "-o", "a.png", "--samples", "1000000"};
-  const Outcome outcome = place.interrupt(words, GetParam(), "camera:", 1.5);
+  const Outcome outcome = place.interrupt(words, GetParam(), "[camera]", 1.5);
   EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
   EXPECT_LT(outcome.seconds, 1);
   EXPECT_NE(outcome.err.find("the picture so far"), std::string::npos) << outcome.err;
@@ -217,14 +217,14 @@ TEST_P(Interrupted, BuildingASceneLeavesNothing) {
   const std::string before = place.files();
   // Each takes many seconds in another stage.
   const std::vector<Words> slow{
-      {"--set", "terrain.resolution=6000", "--set", "terrain.step.fbm.octaves=20"},
+      {"--set", "terrain.resolution=9000", "--set", "terrain.step.fbm.octaves=24"},
       {"--set", "scatter.density=40"},
       {"--set", "species.models=60", "--set", "species.plant=" WOLD_SOURCE_DIR "/plants/oak.lsys"},
       {"--set", "render.dicing=0.25", "--size", "3000x2000"}};
   for (const Words& settings : slow) {
     Words words{"render", "scene.toml", "-o", "a.png"};
     words.insert(words.end(), settings.begin(), settings.end());
-    const Outcome outcome = place.interrupt(words, GetParam(), "", 1);
+    const Outcome outcome = place.interrupt(words, GetParam(), "", 0.7);
     EXPECT_EQ(outcome.exit_code, 130) << settings[1] << outcome.err;
     EXPECT_LT(outcome.seconds, 1.5) << settings[1];
     EXPECT_NE(outcome.err.find("interrupted; nothing was written"), std::string::npos)

@@ -222,5 +222,20 @@ TEST(GroundMesh, HasNoCracksFromTheSide) {
   EXPECT_GT(tried, 5000);
 }
 
+TEST(Ground, NeverReflectsMoreThanItGets) {
+  GroundMaterial white;
+  white.rock_color1 = white.rock_color2 = white.soil_color1 = white.soil_color2 = Vec3(1);
+  white.grass_color1 = white.grass_color2 = Vec3(1);
+  white.rock_height = {-10, -5};
+  for (const bool rock : {true, false}) {
+    if (!rock) white.rock_height = {3000, 4000};
+    const Ground ground(testing::flat(2000), {}, white, 3);
+    for (int k = 0; k < 2000; ++k) {
+      const Vec3 color = ground.surface(DVec2(0.37 * k - 400, 0.21 * k - 200), 0.05F).reflectance;
+      EXPECT_LE(std::max({color.x, color.y, color.z}), 0.95F);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace wold

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/parallel.hpp"
+#include "sky/spectrum.hpp"
 #include "testing.hpp"
 
 namespace wold {
@@ -73,6 +74,18 @@ TEST(PathTracer, AThinSheetLetsLightThroughAndReflects) {
   expect_near(mean_radiance(below), 0.5 * light, 0.01);
   const Image above = picture(*stage.rays, looking(9, {0, 0, -1}), {16, 16}, 16, 0);
   expect_near(mean_radiance(above), 0.4 * light, 0.01);
+}
+
+TEST(PathTracer, NoLightComesThroughOpaqueGround) {
+  // Rough detail on a white plain tilts normals for shading by far more than the mesh, which is
+  // diced more coarsely: directions below the mesh must not find the sky beneath it.
+  GroundMaterial rough = testing::plain(Vec3(0.95F));
+  rough.detail = 5;
+  World world{Ground(testing::flat(4000), {}, rough, 1), {}, {}, {}, Sky(testing::sky(0, 1))};
+  const Stage stage(std::move(world));
+  const double most = luminance(DVec3(stage.world.sky.sky_irradiance())) / pi_d;
+  const Image image = picture(*stage.rays, looking(10, {0, 0, -1}), {16, 16}, 64, 6);
+  EXPECT_LT(luminance(mean_radiance(image)), most);
 }
 
 TEST(PathTracer, LightBetweenTwoSurfacesIsAGeometricSeries) {
