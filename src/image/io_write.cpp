@@ -27,7 +27,7 @@ Error cannot_write(const std::string& path, const std::string& why) {
   return {ErrorKind::io, fmt::format("cannot write '{}': {}", path, first_line(why))};
 }
 
-oiio::ImageSpec spec_of(const Image& image, oiio::TypeDesc type, const Metadata& metadata) {
+oiio::ImageSpec spec_of(const Image& image, const oiio::TypeDesc& type, const Metadata& metadata) {
   oiio::ImageSpec spec(image.width, image.height, image.channel_count(), type);
   spec.channelnames = image.channels;
   spec.alpha_channel = -1;
@@ -130,7 +130,7 @@ std::vector<std::uint16_t> sixteen_bits(const Image& image) {
 std::uint32_t quantised(float value, std::uint32_t largest) {
   if (!(value > 0)) return 0;
   const double scaled = std::min(1.0, static_cast<double>(value)) * largest;
-  return static_cast<std::uint32_t>(scaled + 0.5);
+  return static_cast<std::uint32_t>(std::lround(scaled));
 }
 
 void write_exr(const std::string& path, const Image& image, const ExrOptions& options) {

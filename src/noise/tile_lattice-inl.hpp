@@ -112,7 +112,8 @@ struct LatticeTable {
       for (int i = 0; i < stride; i += lanes) {
         const auto column = hn::Iota(du, px.first_cell() + static_cast<std::uint32_t>(i));
         const auto hash = HWY_NAMESPACE::lattice_hash(column, row);
-        const auto at = static_cast<std::size_t>(j * stride + i);
+        const auto at = static_cast<std::size_t>(j) * static_cast<std::size_t>(stride) +
+                        static_cast<std::size_t>(i);
         if (basis == NoiseBasis::value) {
           hn::StoreU(HWY_NAMESPACE::lattice_value(hash), d, &x[at]);
           continue;

@@ -16,6 +16,7 @@ namespace {
 
 constexpr int columns = 32;
 constexpr int rows = 18;
+constexpr int upper_rows = rows / 4;
 constexpr int proposals = 480;
 constexpr float lens_clearance = 4;   // m, within which plants are in the way
 constexpr float wall_distance = 250;  // m, within which ground above the horizon shuts the view
@@ -218,7 +219,7 @@ ViewStatistics look_around(const RayScene& scene, const Camera& camera, float as
       const Hit hit = scene.intersect(rays.ray(pixel, Vec2(0)), 0, true, count);
       if (!hit.valid()) {
         v.sky += 1;
-        if (j < rows / 4) v.sky_above += 1;
+        if (j < upper_rows) v.sky_above += 1;
         edge[static_cast<std::size_t>(i)] = static_cast<float>(j + 1) / rows;
         continue;
       }
@@ -237,7 +238,7 @@ ViewStatistics look_around(const RayScene& scene, const Camera& camera, float as
   for (float* share :
        {&v.sky, &v.ground, &v.plants, &v.near_share, &v.middle_share, &v.far_share, &v.wall})
     *share /= all;
-  v.sky_above /= static_cast<float>(columns * (rows / 4));
+  v.sky_above /= static_cast<float>(columns * upper_rows);
   for (const float number : classes) {
     if (number == 0) continue;
     const float p = number / static_cast<float>(surfaces);

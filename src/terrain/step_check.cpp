@@ -68,7 +68,7 @@ void check_step(const TerrainStep& step, const TerrainOperator& op, KnownNames& 
     throw Error(ErrorKind::input, fmt::format("a step before this one is also named '{}'", name));
   for (const std::string& map : op.maps) {
     known.maps.insert(map);
-    if (!name.empty() && map != "mask") known.maps.insert(name + "." + map);
+    if (!name.empty() && map != "mask") known.maps.insert(fmt::format("{}.{}", name, map));
   }
 }
 
