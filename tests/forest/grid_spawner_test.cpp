@@ -31,8 +31,9 @@ TEST(GridSpawner, FillsEveryCellWithinItsShare) {
   const auto plants = spawn_grid(flat(), grid, two_species(), {10, -3}, 1);
   ASSERT_EQ(plants.size(), 20U);
   for (int n = 0; n < 20; ++n) {
+    const int row = n / 5;
     const Vec2 middle{10 + 2.5F * (static_cast<float>(n % 5) - 2),
-                      12 + 2.5F * (static_cast<float>(n / 5) - 1.5F)};
+                      12 + 2.5F * (static_cast<float>(row) - 1.5F)};
     const Instance& p = plants[static_cast<std::size_t>(n)];
     EXPECT_LE(std::abs(p.position.x - middle.x), 0.2F * 2.5F + 1e-5F);
     EXPECT_LE(std::abs(p.position.y - middle.y), 0.2F * 2.5F + 1e-5F);

@@ -245,7 +245,8 @@ TEST(Scatter, IsBlueNoise) {
   for (const Instance& p : plants) {
     const int i = std::min(squares - 1, static_cast<int>((p.position.x + 180) / 24));
     const int j = std::min(squares - 1, static_cast<int>((p.position.y + 180) / 24));
-    count[static_cast<std::size_t>(j * squares + i)] += 1;
+    const int square = j * squares + i;
+    count[static_cast<std::size_t>(square)] += 1;
   }
   double sum = 0, sum_2 = 0;
   for (const double c : count) sum += c, sum_2 += c * c;

@@ -96,17 +96,19 @@ TEST(DiscSample, IsUniform) {
   constexpr int side = 400;
   std::array<int, rings * sectors> counts{};
   for (int k = 0; k < side * side; ++k) {
+    const int row = k / side;
     const Vec2 u((static_cast<float>(k % side) + 0.5F) / side,
-                 (static_cast<float>(k / side) + 0.5F) / side);
+                 (static_cast<float>(row) + 0.5F) / side);
     const Vec2 d = disc_sample(u);
     const float r2 = glm::dot(d, d);
     ASSERT_LE(r2, 1.0F);
     const float turn = std::atan2(d.y, d.x) / (2 * pi) + 0.5F;
     const int sector = std::min(sectors - 1, static_cast<int>(turn * sectors));
-    ++counts[static_cast<std::size_t>(static_cast<int>(r2 * rings) * sectors + sector)];
+    const int cell = static_cast<int>(r2 * rings) * sectors + sector;
+    ++counts[static_cast<std::size_t>(cell)];
   }
-  for (const int n : counts)
-    EXPECT_NEAR(n, side * side / (rings * sectors), 0.03 * side * side / 32);
+  constexpr double expected = 5000;  // in each cell
+  for (const int n : counts) EXPECT_NEAR(n, expected, 0.03 * expected);
 }
 
 }  // namespace

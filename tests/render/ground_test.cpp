@@ -11,8 +11,6 @@
 namespace wold {
 namespace {
 
-using testing::Stage;
-
 double random(int k, int which) {
   return uniform_double(random_bits(5, k, which));
 }

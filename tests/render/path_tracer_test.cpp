@@ -19,12 +19,12 @@ using testing::Stage;
 
 constexpr float ground_albedo = 0.8F;
 
-World plane_world(SkySettings sky, Vec3 reflectance = Vec3(ground_albedo)) {
+World plane_world(const SkySettings& sky, Vec3 reflectance = Vec3(ground_albedo)) {
   return {Ground(testing::flat(4000), {}, testing::plain(reflectance), 1), {}, {}, {}, Sky(sky)};
 }
 
 /// A plane of `reflectance` and, 2 m above it, a wide thin sheet.
-World sheet_world(SkySettings sky, float reflectance, float sheet_reflectance,
+World sheet_world(const SkySettings& sky, float reflectance, float sheet_reflectance,
                   float sheet_transmittance) {
   World world = plane_world(sky, Vec3(reflectance));
   world.materials.emplace_back(testing::sheet(Vec3(sheet_reflectance), Vec3(sheet_transmittance)));

@@ -74,7 +74,7 @@ p1: B -> [+(50)F(0.8)~A][-(50)F(0.8)~A]/(90)F(0.7)B
 )";
 
 std::filesystem::path folder_with_tree() {
-  const auto folder = std::filesystem::path(::testing::TempDir()) / "wold_auto_camera";
+  auto folder = std::filesystem::path(::testing::TempDir()) / "wold_auto_camera";
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "tree.lsys") << small_tree;
   return folder;
