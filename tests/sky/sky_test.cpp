@@ -139,7 +139,8 @@ TEST(Sky, SamplesFollowTheDensity) {
     const float turn = std::atan2(d.y, d.x) / (2 * pi);
     const int a = std::min(static_cast<int>((turn < 0 ? turn + 1 : turn) * bins_a), bins_a - 1);
     const int z = std::min(static_cast<int>((d.z + 1) / 2 * bins_z), bins_z - 1);
-    return static_cast<std::size_t>(z * bins_a + a);
+    const int index = z * bins_a + a;
+    return static_cast<std::size_t>(index);
   };
   constexpr int samples = 200000;
   std::vector<double> observed(bins_z * bins_a), expected(bins_z * bins_a);
