@@ -168,6 +168,15 @@ void ParameterSet::assign(void* object, std::string_view wanted, const Value& gi
   p->set(object, value);
 }
 
+void ParameterSet::check(const void* object) const {
+  for (const Parameter& p : parameters) {
+    const Value value = p.get(object);
+    if (!in_range(p, value))
+      throw Error(ErrorKind::input, fmt::format("'{}' in '{}' is {}, but must be {}", p.name, name,
+                                                to_text(value), p.allowed()));
+  }
+}
+
 std::string help_text(const ParameterSet& set, const void* defaults) {
   std::string text = fmt::format("{}: {}\n", set.name, set.text);
   std::size_t widest = 0;

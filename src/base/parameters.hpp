@@ -81,6 +81,10 @@ struct ParameterSet {
   /// what is allowed, and for an unknown name the nearest known one.
   void assign(void* object, std::string_view name, const Value& value,
               const SourceLocation& where = {}) const;
+
+  /// Throws Error(input) as `assign` does if a value of `object` is not what it may be: for structs
+  /// that were filled in by a program.
+  void check(const void* object) const;
 };
 
 /// A range with low <= high, written `[low, high]`.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "erosion/operators.hpp"
 #include "image/atomic_file.hpp"
 #include "scene/example.hpp"
 #include "scene/scene.hpp"
@@ -245,7 +246,9 @@ std::vector<SceneSection> scene_sections() {
 }
 
 OperatorList scene_operators() {
-  return terrain_operators();
+  OperatorList all = terrain_operators();
+  for (TerrainOperator& op : erosion_operators()) all.push_back(std::move(op));
+  return all;
 }
 
 Scene parse_scene(const std::string& text, const std::string& source,

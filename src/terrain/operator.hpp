@@ -25,6 +25,7 @@
 
 #include "base/parameters.hpp"
 #include "base/progress.hpp"
+#include "terrain/balance.hpp"
 #include "terrain/heightfield.hpp"
 
 namespace wold {
@@ -33,6 +34,7 @@ namespace wold {
 struct TerrainResult {
   Heightfield field;
   std::map<std::string, Grid<float>> maps;
+  std::vector<Balance> balances = {};  ///< of what the operator moved
 };
 
 /// A rectangle of the world, m.
@@ -50,6 +52,8 @@ struct TerrainContext {
   std::filesystem::path folder;  ///< paths in parameters are relative to it
   const std::map<std::string, TerrainResult>& named;  ///< results of the named steps before
   Progress& progress;
+  /// Maps that steps before made, by name, over the whole window; or null for none.
+  const std::map<std::string, Grid<float>>* maps = nullptr;
 
   /// The result of a named step. Throws Error(input) with the nearest name.
   const TerrainResult& step(std::string_view name) const;
@@ -66,6 +70,8 @@ struct OperatorTraits {
   std::function<double(const T&, double cell)> reach = {};
   /// Names of steps that the parameters refer to.
   std::function<std::vector<std::string>(const T&)> references = {};
+  /// Maps that the parameters refer to, as `map_over` finds them; empty names are none.
+  std::function<std::vector<std::string>(const T&)> map_references = {};
   /// Names of the maps that come out.
   std::vector<std::string> maps = {};
   /// Working memory besides input and output, bytes per sample.
@@ -79,6 +85,7 @@ struct TerrainOperator {
   double bytes_per_sample = 8;
   std::function<double(const Described&, double cell)> reach;
   std::function<std::vector<std::string>(const Described&)> references;
+  std::function<std::vector<std::string>(const Described&)> map_references;
   std::function<TerrainResult(const Heightfield&, const Described&, const TerrainContext&)> run;
 
   const std::string& name() const { return defaults.parameters().name; }
@@ -103,10 +110,13 @@ TerrainOperator make_terrain_operator(Out (*work)(const Heightfield&, const T&,
   op.references = [references = traits.references](const Described& parameters) {
     return references ? references(parameters.as<T>()) : std::vector<std::string>{};
   };
+  op.map_references = [references = traits.map_references](const Described& parameters) {
+    return references ? references(parameters.as<T>()) : std::vector<std::string>{};
+  };
   op.run = [work](const Heightfield& input, const Described& parameters,
                   const TerrainContext& context) -> TerrainResult {
     if constexpr (std::is_same_v<Out, Heightfield>)
-      return {work(input, parameters.as<T>(), context), {}};
+      return {work(input, parameters.as<T>(), context), {}, {}};
     else
       return work(input, parameters.as<T>(), context);
   };

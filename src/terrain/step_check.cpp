@@ -37,15 +37,15 @@ void require_file(const std::filesystem::path& folder, const std::string& path, 
                                             (folder / path).lexically_normal().string()));
 }
 
-void check_mask(const std::string& mask, const KnownNames& known,
-                const std::filesystem::path& folder) {
+void require_map(const std::string& mask, const char* what, const KnownNames& known,
+                 const std::filesystem::path& folder) {
   if (mask.empty() || known.steps.contains(mask) || known.maps.contains(mask)) return;
   if (std::filesystem::path(mask).has_extension()) {
     const std::string owner = mask.substr(0, mask.find('.'));
-    if (!known.steps.contains(owner)) return require_file(folder, mask, "the mask");
+    if (!known.steps.contains(owner)) return require_file(folder, mask, what);
   }
   throw Error(ErrorKind::input,
-              fmt::format("mask '{}' is neither a map or step before this one nor a picture.{}",
+              fmt::format("{} '{}' is neither a map or step before this one nor a picture.{}", what,
                           mask, suggestion(mask, known.all())));
 }
 
@@ -60,8 +60,10 @@ void check_files(const Described& parameters, const std::filesystem::path& folde
 void check_step(const TerrainStep& step, const TerrainOperator& op, KnownNames& known,
                 const std::filesystem::path& folder) {
   if (!step.settings.input.empty()) require_step(step.settings.input, "input", known);
-  check_mask(step.settings.mask, known, folder);
+  require_map(step.settings.mask, "mask", known, folder);
   for (const std::string& name : op.references(step.parameters)) require_step(name, "step", known);
+  for (const std::string& name : op.map_references(step.parameters))
+    require_map(name, "map", known, folder);
   check_files(step.parameters, folder);
   const std::string& name = step.settings.name;
   if (!name.empty() && !known.steps.insert(name).second)

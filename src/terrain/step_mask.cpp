@@ -5,6 +5,7 @@
 #include "terrain/analysis.hpp"
 #include "terrain/field_map.hpp"
 #include "terrain/import.hpp"
+#include "terrain/resample.hpp"
 #include "terrain/soft.hpp"
 
 namespace wold {
@@ -21,14 +22,13 @@ const Grid<float>& mask_of(const TerrainResult& result) {
   return result.maps.size() == 1 ? result.maps.begin()->second : result.field.height;
 }
 
-Grid<float> named_mask(const Heightfield& input, const std::string& name,
-                       const std::map<std::string, Grid<float>>& maps,
-                       const TerrainContext& context) {
+/// The map, or null when `name` must be a picture.
+const Grid<float>* find_map(const std::string& name, const TerrainContext& context) {
   const auto step = context.named.find(name);
-  if (step != context.named.end()) return mask_of(step->second);
-  const auto map = maps.find(name);
-  if (map != maps.end()) return map->second;
-  return picture_over(context.folder / name, {}, context.domain, input, context.progress);
+  if (step != context.named.end()) return &mask_of(step->second);
+  if (context.maps == nullptr) return nullptr;
+  const auto map = context.maps->find(name);
+  return map != context.maps->end() ? &map->second : nullptr;
 }
 
 }  // namespace
@@ -39,6 +39,15 @@ float soft_range(const Range& range, const Range& whole, float width, float x) {
   return above * below;
 }
 
+Grid<float> map_over(const Heightfield& input, const std::string& name,
+                     const TerrainContext& context) {
+  const Grid<float>* map = find_map(name, context);
+  if (map == nullptr)
+    return picture_over(context.folder / name, {}, context.domain, input, context.progress);
+  if (map->same_shape(input.height)) return *map;
+  return resample(*map, {input.origin, input.size()}, Outside::clamp, input, context.progress);
+}
+
 bool has_mask(const StepSettings& settings) {
   const StepSettings everywhere;
   return !settings.mask.empty() || settings.opacity < 1 ||
@@ -47,10 +56,9 @@ bool has_mask(const StepSettings& settings) {
 }
 
 Grid<float> step_mask(const Heightfield& input, const StepSettings& settings,
-                      const std::map<std::string, Grid<float>>& maps,
                       const TerrainContext& context) {
   Grid<float> named;
-  if (!settings.mask.empty()) named = named_mask(input, settings.mask, maps, context);
+  if (!settings.mask.empty()) named = map_over(input, settings.mask, context);
   const bool by_slope = settings.mask_slope != whole_slope;
   return map_grid<float>(input, context.progress, [&](int i, int j) {
     float m = settings.opacity;

@@ -1,5 +1,5 @@
 #pragma once
-// Where a step acts: the mask of its settings.
+// Where a step acts: the mask of its settings; and maps that parameters name.
 
 #include "terrain/steps.hpp"
 
@@ -12,10 +12,16 @@ float soft_range(const Range& range, const Range& whole, float width, float x);
 /// Whether the settings mean anything but "everywhere, wholly".
 bool has_mask(const StepSettings& settings);
 
+/// A map by name over the samples of `input`: of a named step (the map that it made to be a mask,
+/// its only one, or its heights), a map of any step before ("flow", "rivers.flow"), or a picture
+/// laid over the whole terrain. Resampled where `input` has samples of its own. Throws Error(input)
+/// for an unknown name, Error(io) for an unreadable picture.
+Grid<float> map_over(const Heightfield& input, const std::string& name,
+                     const TerrainContext& context);
+
 /// opacity · (map, step or picture) · height range · slope range, over the samples of `input`.
-/// `maps` are those of the steps before, by name. Throws Error(input) for an unknown name.
+/// Throws as `map_over`.
 Grid<float> step_mask(const Heightfield& input, const StepSettings& settings,
-                      const std::map<std::string, Grid<float>>& maps,
                       const TerrainContext& context);
 
 }  // namespace wold

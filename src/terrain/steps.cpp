@@ -8,6 +8,7 @@
 
 #include "base/hash.hpp"
 #include "base/parallel.hpp"
+#include "terrain/step_cell.hpp"
 #include "terrain/step_check.hpp"
 #include "terrain/step_mask.hpp"
 
@@ -92,24 +93,24 @@ class Evaluation {
     const int place = places_[step.op]++;
     if (!step.settings.enabled) return;
     const std::string& name = step.settings.name.empty() ? step.op : step.settings.name;
-    const TerrainContext context{step_seed(seed_, step, place), domain_, folder_, named_,
-                                 progress_};
+    const TerrainContext context{
+        step_seed(seed_, step, place), domain_, folder_, named_, progress_, &maps_};
     const Heightfield& input =
         step.settings.input.empty() ? ground_ : context.step(step.settings.input).field;
     progress_.begin(name, input.height.height(), "rows");
-    TerrainResult result = op.run(input, step.parameters, context);
+    TerrainResult result = run_at_cell(op, input, step.parameters, step.settings.cell, context);
     if (!result.field.height.same_shape(input.height))
       throw Error(ErrorKind::internal,
                   fmt::format("operator '{}' changed the size of the terrain", step.op));
     Grid<float> mask;
-    if (has_mask(step.settings)) mask = step_mask(input, step.settings, maps_, context);
+    if (has_mask(step.settings)) mask = step_mask(input, step.settings, context);
     blend_into(result.field.height, input.height, actual_blend(step, op), mask);
     progress_.check();
     progress_.end();
     keep(step, std::move(result));
   }
 
-  TerrainResult take() { return {std::move(ground_), std::move(maps_)}; }
+  TerrainResult take() { return {std::move(ground_), std::move(maps_), std::move(balances_)}; }
 
  private:
   void keep(const TerrainStep& step, TerrainResult result) {
@@ -117,6 +118,10 @@ class Evaluation {
     for (const auto& [name, map] : result.maps) {
       maps_.insert_or_assign(name, map);
       if (!owner.empty()) maps_.insert_or_assign(map_name(owner, name), map);
+    }
+    for (Balance& balance : result.balances) {
+      balance.step = owner.empty() ? step.op : owner;
+      balances_.push_back(balance);
     }
     ground_ = result.field;
     if (!owner.empty()) named_.insert_or_assign(owner, std::move(result));
@@ -128,6 +133,7 @@ class Evaluation {
   Progress& progress_;
   Heightfield ground_;
   std::map<std::string, Grid<float>> maps_;
+  std::vector<Balance> balances_;
   Results named_;
   std::map<std::string, int> places_;
 };
@@ -188,6 +194,8 @@ Description<StepSettings> describe(const StepSettings&) {
               "How the output meets the input; automatic adds what makes ground and replaces by "
               "what changes it.")
       .add("opacity", &S::opacity, {.min = 0, .max = 1}, "How much of the step is seen.")
+      .add("cell", &S::cell, {.unit = "m", .min = 0, .max = 1e5},
+           "Works on samples this far apart and adds the change to the ground; 0: the terrain's.")
       .add("seed", &S::seed, {.min = 0, .max = 4294967295.0},
            "Another number gives other random ground.")
       .add("enabled", &S::enabled, "False skips the step.");

@@ -10,6 +10,10 @@
 // evaluation adds the margin that its operators reach (TerrainOperator::reach), so tiles agree at
 // their borders.
 //
+// A step with a `cell` works on samples of that distance whatever the terrain's resolution, and its
+// change of the ground is added to the finer (or coarser) ground: so what flows keeps its courses
+// at every resolution, fine detail of the input stays, and an erosion can be tried quickly.
+//
 // A step's random numbers come from the scene's seed, the step's `seed`, and its name; without a
 // name, from its operator and its place among the steps with that operator.
 
@@ -68,6 +72,7 @@ struct StepSettings {
   float mask_slope_feather = 8;    ///< degrees
   Blend blend = Blend::automatic;
   float opacity = 1;
+  double cell = 0;  ///< m, distance of the samples that the step works on; 0: the terrain's
   std::uint32_t seed = 0;
   bool enabled = true;
 };

@@ -295,7 +295,7 @@ TEST(TerrainSteps, MissingFilesAreNamed) {
       error_text([] {
         Steps().add("fbm", {{"mask", std::string("m.png")}}).evaluate(small, 1, "/nonexistent");
       }),
-      "scene.toml:1: the mask '/nonexistent/m.png' does not exist");
+      "scene.toml:1: mask '/nonexistent/m.png' does not exist");
 }
 
 TEST(TerrainSteps, APictureThatIsNoneIsNamedWithItsStep) {

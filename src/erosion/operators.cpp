@@ -1,0 +1,9 @@
+#include "erosion/operators.hpp"
+
+namespace wold {
+
+OperatorList erosion_operators() {
+  return {};
+}
+
+}  // namespace wold

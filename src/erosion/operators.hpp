@@ -1,0 +1,10 @@
+#pragma once
+// All operators of this room.
+
+#include "terrain/operator.hpp"
+
+namespace wold {
+
+OperatorList erosion_operators();
+
+}  // namespace wold
