@@ -17,6 +17,16 @@ pkg_check_modules(OPENIMAGEIO REQUIRED IMPORTED_TARGET OpenImageIO)
 find_path(WOLD_TINYGLTF_INCLUDE tiny_gltf.h PATH_SUFFIXES tinygltf REQUIRED)
 find_library(WOLD_TINYGLTF_LIBRARY tinygltf REQUIRED)
 
+# Optional: real elevation data (.hgt, GeoTIFF).
+pkg_check_modules(GDAL IMPORTED_TARGET gdal)
+add_library(wold_gdal INTERFACE)
+if(GDAL_FOUND)
+  target_compile_definitions(wold_gdal INTERFACE WOLD_GDAL)
+  target_link_libraries(wold_gdal INTERFACE PkgConfig::GDAL)
+else()
+  message(NOTICE "GDAL was not found: wold will not read elevation data such as .hgt and GeoTIFF.")
+endif()
+
 add_library(wold_highway INTERFACE)
 target_link_libraries(wold_highway INTERFACE PkgConfig::HIGHWAY)
 

@@ -77,8 +77,17 @@ std::unique_ptr<oiio::ImageInput> open_picture(const std::string& path) {
   return input;
 }
 
+/// The lines "name=text" of a description, as `write_tiff` leaves them.
+void add_described(const std::string& description, std::map<std::string, std::string>& texts) {
+  std::istringstream lines(description);
+  for (std::string line; std::getline(lines, line);)
+    if (const std::size_t sign = line.find('='); sign != std::string::npos)
+      texts.emplace(line.substr(0, sign), line.substr(sign + 1));
+}
+
 std::map<std::string, std::string> texts_of(const oiio::ImageSpec& spec) {
   std::map<std::string, std::string> texts;
+  add_described(std::string(spec.get_string_attribute("ImageDescription")), texts);
   for (const auto& attribute : spec.extra_attribs)
     if (attribute.type() == oiio::TypeString)
       texts.emplace(attribute.name().string(), attribute.get_string());

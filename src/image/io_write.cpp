@@ -171,7 +171,11 @@ void write_png(const std::string& path, const Image& image, const PngOptions& op
 }
 
 void write_tiff(const std::string& path, const Image& image, const Metadata& metadata) {
-  oiio::ImageSpec spec = spec_of(image, oiio::TypeFloat, metadata);
+  // A TIFF has no place for names of one's own: they go into its description, a line each.
+  std::string description;
+  for (const auto& [name, text] : metadata) description += fmt::format("{}={}\n", name, text);
+  oiio::ImageSpec spec = spec_of(image, oiio::TypeFloat, {});
+  if (!description.empty()) spec.attribute("ImageDescription", description);
   spec.attribute("compression", "zip");
   spec.attribute("oiio:UnassociatedAlpha", 1);
   write_with(path, spec, oiio::TypeFloat, image.pixels.data());

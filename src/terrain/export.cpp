@@ -57,7 +57,7 @@ Range range_of(const Heightfield& field, Format format, const ExportOptions& opt
 Metadata metadata_of(const Heightfield& field, const Range& range) {
   return {{low_height_key, fmt::format("{}", range.low)},
           {high_height_key, fmt::format("{}", range.high)},
-          {"wold_cell", fmt::format("{}", field.cell)},
+          {cell_key, fmt::format("{}", field.cell)},
           {"wold_origin", fmt::format("{} {}", field.origin.x, field.origin.y)}};
 }
 

@@ -4,47 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <optional>
 
-#include "image/atomic_file.hpp"
 #include "terrain/resample.hpp"
 
 namespace wold {
 
 namespace {
-
-bool is_raw16(const std::string& path) {
-  const std::string extension = extension_of(path);
-  return extension == ".r16" || extension == ".raw";
-}
-
-Picture read_raw16_picture(const std::string& path, const Import& p) {
-  const Raw16Options options{.order = p.byte_order, .flip = p.flip};
-  const auto samples = static_cast<int>(read_file(path).size() / 2);
-  const int rows = p.raw_width == 0 ? 0 : samples / p.raw_width;
-  Picture picture;
-  picture.image = read_raw16(path, p.raw_width, rows, options);
-  picture.bits = 16;
-  return picture;
-}
-
-/// The heights of 0 and 1 that wold wrote into the file.
-std::optional<Range> recorded_range(const Picture& picture) {
-  const auto low = picture.metadata.find(low_height_key);
-  const auto high = picture.metadata.find(high_height_key);
-  if (low == picture.metadata.end() || high == picture.metadata.end()) return std::nullopt;
-  return Range{std::strtof(low->second.c_str(), nullptr),
-               std::strtof(high->second.c_str(), nullptr)};
-}
-
-Range height_range(const Picture& picture, const Import& p) {
-  constexpr Range metres{0, 1};
-  if (p.values == PictureValues::metres) return metres;
-  if (p.values == PictureValues::range) return p.height;
-  if (picture.floating) return metres;
-  return recorded_range(picture).value_or(p.height);
-}
 
 void fill_holes(Grid<float>& grid) {
   float lowest = std::numeric_limits<float>::max();
@@ -55,17 +20,24 @@ void fill_holes(Grid<float>& grid) {
     if (!std::isfinite(v)) v = lowest;
 }
 
-Grid<float> channel_of(const Image& image, const std::string& channel) {
-  return channel.empty() ? channel_grid(image, 0) : channel_grid(image, channel);
+/// Metres between samples, east and north; 0 where they must cover the whole terrain.
+DVec2 spacing_of(const Elevation& elevation, float size) {
+  const Grid<float>& height = elevation.height;
+  const double intervals = std::max(1, height.width() - 1);
+  if (size > 0 && elevation.georeferenced)
+    return elevation.spacing * (static_cast<double>(size) / (intervals * elevation.spacing.x));
+  if (size > 0) return DVec2(static_cast<double>(size) / intervals);
+  return elevation.georeferenced ? elevation.spacing : DVec2(0);
 }
 
-/// The picture's own proportions, around the middle of the terrain.
-TerrainDomain place_of_picture(const Grid<float>& heights, float size,
+/// Around the middle of the terrain.
+TerrainDomain place_of_heights(const Elevation& elevation, float size,
                                const TerrainDomain& terrain) {
-  if (size <= 0) return terrain;
-  const double cell = static_cast<double>(size) / std::max(1, heights.width() - 1);
+  const DVec2 spacing = spacing_of(elevation, size);
+  if (spacing.x <= 0) return terrain;
+  const Grid<float>& height = elevation.height;
   const DVec2 extent =
-      cell * DVec2(std::max(1, heights.width() - 1), std::max(1, heights.height() - 1));
+      spacing * DVec2(std::max(1, height.width() - 1), std::max(1, height.height() - 1));
   return {terrain.center() - 0.5 * extent, extent};
 }
 
@@ -73,8 +45,10 @@ TerrainDomain place_of_picture(const Grid<float>& heights, float size,
 
 Description<Import> describe(const Import&) {
   using I = Import;
-  return Description<I>("import", "Heights from a picture, north up.")
-      .add("file", &I::file, "EXR, PNG, TIFF, JPEG, or raw 16-bit integers (.r16, .raw).")
+  return Description<I>("import", "Heights from a picture or from elevation data, north up.")
+      .add("file", &I::file,
+           "EXR, PNG, TIFF, JPEG, raw 16-bit integers (.r16, .raw), or elevation data (GeoTIFF, "
+           ".hgt).")
       .add("channel", &I::channel, "Name of the channel; default: the first.")
       .add("height", &I::height, {.unit = "m", .min = -20000, .max = 20000},
            "Heights of black and white, for pictures that do not tell.")
@@ -83,7 +57,7 @@ Description<Import> describe(const Import&) {
       .choice("transfer", &I::transfer, {"stored", "if_tagged", "srgb"},
               "Whether the sRGB curve is undone: never, where the file says sRGB, or always.")
       .add("size", &I::size, {.unit = "m", .min = 0, .max = 1e6},
-           "Extent from west to east; 0 lays the picture over the whole terrain.")
+           "Extent from west to east; 0: that of elevation data, or the whole terrain.")
       .choice("byte_order", &I::byte_order, {"little", "big"}, "Of raw 16-bit files.")
       .add("flip", &I::flip, "Raw 16-bit files whose first row is the south.")
       .add("raw_width", &I::raw_width, {.unit = "pixels", .min = 0, .max = 1e6},
@@ -94,20 +68,20 @@ Heightfield import_picture(const Heightfield& input, const Import& parameters,
                            const TerrainContext& context) {
   if (parameters.file.empty()) throw Error(ErrorKind::input, "'import' needs a 'file'");
   const std::string path = (context.folder / parameters.file.path).string();
-  const Picture picture = is_raw16(path) ? read_raw16_picture(path, parameters)
-                                         : read_picture(path, parameters.transfer);
-  Grid<float> heights = channel_of(picture.image, parameters.channel);
-  const Range range = height_range(picture, parameters);
-  for (float& h : heights.values()) h = range.low + h * (range.high - range.low);
-  fill_holes(heights);
-  return {resample(heights, place_of_picture(heights, parameters.size, context.domain),
+  const auto& p = parameters;
+  Elevation elevation = read_elevation(
+      path, {p.channel, p.height, p.values, p.transfer, p.byte_order, p.flip, p.raw_width});
+  fill_holes(elevation.height);
+  return {resample(elevation.height, place_of_heights(elevation, p.size, context.domain),
                    Outside::clamp, input, context.progress),
           input.origin, input.cell};
 }
 
 Grid<float> picture_over(const std::filesystem::path& path, const std::string& channel,
                          const TerrainDomain& place, const Heightfield& like, Progress& progress) {
-  Grid<float> values = channel_of(read_picture(path.string()).image, channel);
+  const Picture picture = read_picture(path.string());
+  Grid<float> values =
+      channel.empty() ? channel_grid(picture.image, 0) : channel_grid(picture.image, channel);
   fill_holes(values);
   return resample(values, place, Outside::clamp, like, progress);
 }
