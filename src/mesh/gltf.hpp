@@ -2,6 +2,7 @@
 // glTF 2.0 from and to files; mesh/io.hpp says what is kept.
 
 #include <string>
+#include <string_view>
 
 #include "base/mesh.hpp"
 
@@ -9,7 +10,8 @@ namespace wold {
 
 std::string glb_bytes(const TriangleMesh& mesh);
 
-/// Binary (.glb) or text (.gltf). Throws Error(input) naming the file.
-TriangleMesh read_gltf(const std::string& path);
+/// Binary (.glb) or text (.gltf, by the extension of `file`); in its folder are the files that it
+/// names. Throws Error(input) naming the file.
+TriangleMesh parse_gltf(std::string_view bytes, const std::string& file);
 
 }  // namespace wold

@@ -43,7 +43,7 @@ TriangleMesh read_mesh(const std::string& path) {
   const std::string extension = extension_of(path);
   if (extension == ".obj") return parse_obj(read_file(path), path);
   if (extension == ".ply") return parse_ply(read_file(path), path);
-  if (extension == ".glb" || extension == ".gltf") return read_gltf(path);
+  if (extension == ".glb" || extension == ".gltf") return parse_gltf(read_file(path), path);
   throw Error(ErrorKind::usage,
               fmt::format("cannot read '{}' as a mesh: unknown extension '{}'; known are .obj, "
                           ".ply, .glb, .gltf",
