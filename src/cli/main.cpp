@@ -76,6 +76,7 @@ int run(int argc, char** argv) {
   session.interrupted = &interrupted;
   wold::add_render(app, session);
   wold::add_terrain(app, session);
+  wold::add_erode(app, session);
   wold::add_check(app, session);
   wold::add_new(app, session);
   wold::add_help(app, session);

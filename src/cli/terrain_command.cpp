@@ -11,9 +11,8 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "cli/commands.hpp"
+#include "cli/outputs.hpp"
 #include "cli/session.hpp"
-#include "image/atomic_file.hpp"
-#include "image/io.hpp"
 #include "scene/build.hpp"
 #include "terrain/analysis.hpp"
 #include "terrain/engine_export.hpp"
@@ -29,43 +28,9 @@ struct TerrainOptions {
   int resolution = 0;
   std::string preset;
   std::string maps;
+  bool map_pictures = false;
   std::string preview;
 };
-
-/// Slope and curvature besides what the steps made: what every material in an engine wants.
-std::map<std::string, Grid<float>> all_maps(const TerrainResult& terrain) {
-  std::map<std::string, Grid<float>> maps = terrain.maps;
-  maps.emplace("slope", slope_map(terrain.field));
-  maps.emplace("curvature", curvature_map(terrain.field));
-  return maps;
-}
-
-/// The folder may be missing, if the one above it is there.
-void check_folder(const std::string& folder) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(folder, ignored)) {
-    check_writable(folder + "/slope.exr");
-    return;
-  }
-  if (std::filesystem::exists(folder, ignored))
-    throw Error(ErrorKind::io, fmt::format("cannot write maps into '{}': it is no folder", folder));
-}
-
-void write_preview(const std::string& path, const Heightfield& field) {
-  write_png(path, image_of(hillshade(field)), {.bits = 8});
-}
-
-Json json_of(const ExportReport& r) {
-  Json settings = Json::object();
-  for (const auto& [name, value] : r.settings) settings[name] = value;
-  return {{"path", r.path},
-          {"format", r.format},
-          {"size", {r.width, r.height}},
-          {"cell", r.cell},
-          {"range", {r.range.low, r.range.high}},
-          {"precision", r.precision},
-          {"settings", settings}};
-}
 
 class TerrainRun {
  public:
@@ -85,7 +50,8 @@ class TerrainRun {
       tell(reports.back());
     }
     std::vector<std::string> maps;
-    if (!options_.maps.empty()) maps = export_maps(all_maps(terrain), options_.maps);
+    if (!options_.maps.empty())
+      maps = export_maps(all_maps(terrain), options_.maps, options_.map_pictures);
     if (!maps.empty()) session_.say(fmt::format("wrote {}", fmt::join(maps, ", ")));
     if (!options_.preview.empty()) write_preview(options_.preview, terrain.field);
     report(terrain, reports, maps, seconds.count());
@@ -106,9 +72,8 @@ class TerrainRun {
       check_export(output);
       if (preset_) check_engine_export(*preset_, output, window.width, window.height);
     }
-    static const std::vector<std::string> preview_extensions{".png"};
-    if (!options_.preview.empty()) check_writable(options_.preview, preview_extensions);
-    if (!options_.maps.empty()) check_folder(options_.maps);
+    check_preview(options_.preview);
+    check_map_folder(options_.maps);
     try {
       check_terrain(window, scene_.steps, scene_operators(), scene_.folder);
     } catch (const Error& error) {
@@ -131,9 +96,7 @@ class TerrainRun {
   }
 
   void tell(const ExportReport& r) const {
-    session_.say(
-        fmt::format("wrote {}: {}, {} x {} samples, {:.4g} m apart, heights {:.2f} to {:.2f} m",
-                    r.path, r.format, r.width, r.height, r.cell, r.range.low, r.range.high));
+    session_.say(told(r));
     for (const auto& [name, value] : r.settings) session_.say(fmt::format("  {}: {}", name, value));
   }
 
@@ -151,6 +114,7 @@ class TerrainRun {
          {"maps", maps},
          {"size_metres", {terrain.field.size().x, terrain.field.size().y}},
          {"heights", {{"min", heights.min}, {"max", heights.max}, {"mean", heights.mean}}},
+         {"balances", json_of(terrain.balances)},
          {"seconds", seconds},
          {"samples_per_second", samples / std::max(seconds, 1e-9)},
          {"peak_memory_bytes", peak_memory()}});
@@ -190,6 +154,8 @@ void add_terrain(CLI::App& app, Session& session) {
       ->add_option("--maps", options->maps,
                    "Folder for maps: slope, curvature, and those of the steps")
       ->type_name("FOLDER");
+  command->add_flag("--map-pictures", options->map_pictures,
+                    "Write each map also as a picture from black to white (.png)");
   command
       ->add_option("--preview", options->preview, "Write the land in slanting light as a picture")
       ->type_name("FILE");

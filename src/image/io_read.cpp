@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <sstream>
 
 #include "base/error.hpp"
 #include "image/atomic_file.hpp"

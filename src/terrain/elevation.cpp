@@ -66,6 +66,7 @@ Elevation of_picture(const Picture& picture, const ElevationOptions& options) {
   const auto [range, known] = height_range(picture, options);
   for (float& h : out.height.values()) h = range.low + h * (range.high - range.low);
   out.knows_heights = known;
+  if (!picture.floating) out.range = range;
   const auto cell = recorded(picture, cell_key);
   if (cell && *cell > 0) out.spacing = DVec2(static_cast<double>(*cell));
   return out;

@@ -10,6 +10,7 @@
 // curvature of meridian and prime vertical); over a degree or two that is exact to a part in a
 // hundred. Samples without data are filled from those around them.
 
+#include <optional>
 #include <string>
 
 #include "base/parameters.hpp"
@@ -40,6 +41,7 @@ struct Elevation {
   Grid<float> height;          ///< m
   DVec2 spacing{0};            ///< m between samples, east and north; 0 where the file is silent
   bool knows_heights = false;  ///< the file itself tells metres
+  std::optional<Range> range;  ///< m, of black and white, where the file holds integers
   bool georeferenced = false;  ///< it has a place on Earth
   std::size_t filled = 0;      ///< samples without data that were filled
   std::string format;          ///< "picture", "raw integers", "SRTMHGT", "GTiff", …

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
+#include <set>
 
 #include "image/atomic_file.hpp"
+#include "image/color.hpp"
 #include "mesh/io.hpp"
 #include "terrain/analysis.hpp"
 #include "terrain/import.hpp"
@@ -69,6 +72,43 @@ Image normalised(const Heightfield& field, const Range& range) {
   return image;
 }
 
+constexpr const char* red_suffix = ".red";
+
+/// Pictures by name: one channel each, or red, green and blue where there are such maps.
+std::map<std::string, Image> map_images(const std::map<std::string, Grid<float>>& maps) {
+  std::map<std::string, Image> images;
+  std::set<std::string> colors;
+  for (const auto& [name, red] : maps) {
+    if (!name.ends_with(red_suffix)) continue;
+    const std::string stem = name.substr(0, name.size() - std::strlen(red_suffix));
+    const auto green = maps.find(stem + ".green");
+    const auto blue = maps.find(stem + ".blue");
+    if (green == maps.end() || blue == maps.end()) continue;
+    Image image(red.width(), red.height(), {"R", "G", "B"});
+    set_channel(image, 0, red);
+    set_channel(image, 1, green->second);
+    set_channel(image, 2, blue->second);
+    images.emplace(stem, std::move(image));
+    colors.insert({name, green->first, blue->first});
+  }
+  for (const auto& [name, map] : maps)
+    if (!colors.contains(name)) images.emplace(name, image_of(map));
+  return images;
+}
+
+Image from_black_to_white(Image image) {
+  const auto [low, high] = std::minmax_element(image.pixels.begin(), image.pixels.end());
+  const float offset = *low;
+  const float scale = *high > *low ? 1 / (*high - *low) : 0;
+  for (float& v : image.pixels) v = (v - offset) * scale;
+  return image;
+}
+
+Image display_encoded(Image image) {
+  for (float& v : image.pixels) v = linear_to_srgb(std::clamp(v, 0.0F, 1.0F));
+  return image;
+}
+
 }  // namespace
 
 ExportReport export_heightfield(const Heightfield& field, const std::string& path,
@@ -113,16 +153,23 @@ void check_export(const std::string& path) {
 }
 
 std::vector<std::string> export_maps(const std::map<std::string, Grid<float>>& maps,
-                                     const std::string& folder) {
+                                     const std::string& folder, bool pictures) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure)
     throw Error(ErrorKind::io,
                 fmt::format("cannot make the folder '{}': {}", folder, failure.message()));
   std::vector<std::string> paths;
-  for (const auto& [name, map] : maps) {
-    paths.push_back((std::filesystem::path(folder) / (name + ".exr")).string());
-    write_exr(paths.back(), image_of(map));
+  for (const auto& [name, image] : map_images(maps)) {
+    const std::string path = (std::filesystem::path(folder) / name).string();
+    paths.push_back(path + ".exr");
+    write_exr(paths.back(), image);
+    if (!pictures) continue;
+    paths.push_back(path + ".png");
+    if (image.channel_count() == 3)
+      write_png(paths.back(), display_encoded(image), {.bits = 8, .srgb = true});
+    else
+      write_png(paths.back(), from_black_to_white(image), {.bits = 16});
   }
   return paths;
 }

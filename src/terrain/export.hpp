@@ -49,8 +49,10 @@ const std::vector<std::string>& export_extensions();
 /// To be called before long work: throws unless `path` could be written.
 void check_export(const std::string& path);
 
-/// Writes each map as FOLDER/NAME.exr, and makes the folder. Returns the paths.
+/// Writes each map as FOLDER/NAME.exr, and makes the folder; maps NAME.red, NAME.green and
+/// NAME.blue become one picture. With `pictures` each is also written as FOLDER/NAME.png: its least
+/// value black and its greatest white (colours as they are). Returns the paths.
 std::vector<std::string> export_maps(const std::map<std::string, Grid<float>>& maps,
-                                     const std::string& folder);
+                                     const std::string& folder, bool pictures = false);
 
 }  // namespace wold

@@ -85,10 +85,27 @@ Blend actual_blend(const TerrainStep& step, const TerrainOperator& op) {
 /// Runs one step after another.
 class Evaluation {
  public:
-  Evaluation(const TerrainDomain& domain, const TerrainWindow& window, std::uint64_t seed,
+  Evaluation(const TerrainDomain& domain, Heightfield ground, std::uint64_t seed,
              const std::filesystem::path& folder, Progress& progress)
-      : domain_(domain), seed_(seed), folder_(folder), progress_(progress), ground_(flat(window)) {}
+      : domain_(domain),
+        seed_(seed),
+        folder_(folder),
+        progress_(progress),
+        ground_(std::move(ground)) {}
 
+  void run_all(std::span<const TerrainStep> steps, std::span<const TerrainOperator> operators) {
+    for (const TerrainStep& step : steps) {
+      try {
+        run(step, find_operator(operators, step.op, step.location));
+      } catch (const Error& error) {
+        throw error.at(step.location);
+      }
+    }
+  }
+
+  TerrainResult take() { return {std::move(ground_), std::move(maps_), std::move(balances_)}; }
+
+ private:
   void run(const TerrainStep& step, const TerrainOperator& op) {
     const int place = places_[step.op]++;
     if (!step.settings.enabled) return;
@@ -110,9 +127,6 @@ class Evaluation {
     keep(step, std::move(result));
   }
 
-  TerrainResult take() { return {std::move(ground_), std::move(maps_), std::move(balances_)}; }
-
- private:
   void keep(const TerrainStep& step, TerrainResult result) {
     const std::string& owner = step.settings.name;
     for (const auto& [name, map] : result.maps) {
@@ -237,18 +251,23 @@ TerrainResult evaluate(const TerrainSettings& settings, const TerrainWindow& win
                        const std::filesystem::path& folder, Progress& progress) {
   check_terrain(window, steps, operators, folder);
   const int margin = margin_of(window, steps, operators);
-  Evaluation evaluation(domain_of(settings), grown(window, margin), seed, folder, progress);
-  for (const TerrainStep& step : steps) {
-    try {
-      evaluation.run(step, find_operator(operators, step.op, step.location));
-    } catch (const Error& error) {
-      throw error.at(step.location);
-    }
-  }
+  Evaluation evaluation(domain_of(settings), flat(grown(window, margin)), seed, folder, progress);
+  evaluation.run_all(steps, operators);
   TerrainResult result = evaluation.take();
   result.field = {cropped(result.field.height, margin), window.origin, window.cell};
   for (auto& [name, map] : result.maps) map = cropped(map, margin);
   return result;
+}
+
+TerrainResult evaluate_on(const Heightfield& ground, std::span<const TerrainStep> steps,
+                          std::span<const TerrainOperator> operators, std::uint64_t seed,
+                          const std::filesystem::path& folder, Progress& progress) {
+  const Grid<float>& height = ground.height;
+  const TerrainWindow window{ground.origin, ground.cell, height.width(), height.height()};
+  check_terrain(window, steps, operators, folder);
+  Evaluation evaluation({ground.origin, ground.size()}, ground, seed, folder, progress);
+  evaluation.run_all(steps, operators);
+  return evaluation.take();
 }
 
 }  // namespace wold

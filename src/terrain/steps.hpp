@@ -114,4 +114,9 @@ TerrainResult evaluate(const TerrainSettings& settings, const TerrainWindow& win
                        std::span<const TerrainOperator> operators, std::uint64_t seed,
                        const std::filesystem::path& folder, Progress& progress);
 
+/// Runs them on ground that exists already, all of which is the domain. Throws as above.
+TerrainResult evaluate_on(const Heightfield& ground, std::span<const TerrainStep> steps,
+                          std::span<const TerrainOperator> operators, std::uint64_t seed,
+                          const std::filesystem::path& folder, Progress& progress);
+
 }  // namespace wold
