@@ -56,7 +56,6 @@ class PlyReader {
   double number(PlyType type);
   /// Where in the file the last number stands.
   std::string_view last() const { return last_; }
-  std::size_t last_offset() const { return static_cast<std::size_t>(last_.data() - all_.data()); }
   /// The length of a list, which comes next.
   std::size_t list_size(const PlyProperty& list);
   /// A vertex' number, which comes next, of a list.
