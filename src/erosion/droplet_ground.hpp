@@ -1,0 +1,45 @@
+#pragma once
+// The ground as drops see it: heights in integers, so that sums are exact in any order.
+
+#include <cstdint>
+#include <vector>
+
+#include "erosion/droplet_walk.hpp"
+#include "terrain/heightfield.hpp"
+
+namespace wold {
+
+/// Heights base + quantum · integer. The quantum is a power of two, 2^-20 m or more, such that the
+/// lowest and the highest ground lie 2^29 quanta apart or less: a quarter of what integers hold.
+class DropletGround {
+ public:
+  explicit DropletGround(const Heightfield& input);
+
+  double quantum() const { return quantum_; }
+  std::int32_t quantised(float height) const;
+  DropletCell* cells() { return cells_.data(); }
+
+  /// Spreads what has changed since the last call as a brush of that radius would have: with a
+  /// normal distribution as wide as a cone of radius r (variance 0.15 r² along each axis), less the
+  /// width that bilinear weights have. What one sample gives is what others get, to the quantum.
+  /// `softness`, if not null: erosion is spread to other samples only as far as they let it.
+  void spread_changes(double radius_cells, const float* softness, const Progress& progress);
+
+  /// input + change, m.
+  Grid<float> eroded(const Heightfield& input) const;
+  /// Taken up, m, spread as the changes were.
+  Grid<float> wear(double radius_cells, const float* softness, const Progress& progress) const;
+  /// Taken up in all, m · cells.
+  double total_wear() const;
+
+ private:
+  int width_ = 0;
+  int height_ = 0;
+  double base_ = 0;
+  double quantum_ = 1;
+  std::vector<DropletCell> cells_;
+  std::vector<std::int32_t> before_;  ///< heights at the last spreading
+  std::vector<std::int32_t> spread_;  ///< changes, spread along rows
+};
+
+}  // namespace wold

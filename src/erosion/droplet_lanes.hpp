@@ -1,0 +1,108 @@
+#pragma once
+// The drops that a walk has under way, as arrays over lanes, and what is done to single lanes.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "erosion/droplet_walk.hpp"
+
+namespace wold {
+
+constexpr int droplet_group = 16;  ///< drops that step together, whatever a vector holds
+constexpr int droplet_lanes = 96;  ///< under way at once: their ground stays in the first cache
+
+template <class T>
+using LaneArray = std::array<T, droplet_lanes>;
+
+/// Places are in cells from the region's first sample.
+struct DropletLanes {
+  alignas(64) LaneArray<float> x, y;
+  alignas(64) LaneArray<float> from_x, from_y;  ///< fractions of the place before
+  alignas(64) LaneArray<float> dx, dy;
+  alignas(64) LaneArray<float> v2, water, left;
+  alignas(64) LaneArray<std::int32_t> sediment, height, came_down;
+  alignas(64) LaneArray<std::int32_t> at, from;  ///< samples to the south-west, as indices
+  LaneArray<Vec3> color;
+};
+
+/// The ground under a group: heights now, softness at the place before.
+struct DropletCorners {
+  alignas(64) std::array<std::int32_t, droplet_group> h00, h10, h01, h11;
+  alignas(64) std::array<float, droplet_group> soft00, soft10, soft01, soft11;
+};
+
+/// What a group does to the ground: for each drop, height and wear of two samples of each row.
+struct DropletChanges {
+  alignas(64) std::array<std::int32_t, static_cast<std::size_t>(4 * droplet_group)> low, high;
+  alignas(64) std::array<std::int32_t, droplet_group> at;  ///< sample to the south-west
+};
+
+/// Where a step may lead.
+struct DropletStep {
+  const DropletRates* rates = nullptr;
+  float width = 0, height = 0;  ///< places lie below these, cells
+  float wall_left, wall_right, wall_bottom, wall_top;
+  int stride = 0;
+  int first = 0;  ///< index of the region's first sample
+  bool hardness = false;
+};
+
+class DropletWalk {
+ public:
+  DropletWalk(const DropletWorld& world, const DropletRates& rates, const DropletRegion& region,
+              const std::vector<Drop>& drops, DropletTally& tally);
+
+  /// Reads the ground under the group from lane `first`.
+  void gather(int first, DropletCorners& corners) const {
+    const int count = std::min(droplet_group, active_ - first);
+    const DropletCell* cells = world_.cells;
+    const std::ptrdiff_t stride = world_.width;
+    for (int k = 0; k < count; ++k) {
+      const auto lane = static_cast<std::size_t>(first + k);
+      const auto slot = static_cast<std::size_t>(k);
+      const DropletCell* low = cells + lanes.at[lane];
+      const DropletCell* high = low + stride;
+      corners.h00[slot] = low[0].height;
+      corners.h10[slot] = low[1].height;
+      corners.h01[slot] = high[0].height;
+      corners.h11[slot] = high[1].height;
+    }
+    if (world_.softness != nullptr) gather_softness(first, count, corners);
+  }
+  /// What the step of a group leaves besides heights.
+  void follow(int first, int count, const DropletChanges& changes) {
+    if (world_.passes != nullptr) record(first, count);
+    if (world_.colors != nullptr) carry_colors(first, count, changes);
+  }
+  /// Ends the lanes of a group whose bits are set and fills them with waiting drops.
+  void end_lanes(int first, std::uint32_t ended);
+
+  int active() const { return active_; }
+  const DropletWorld& world() const { return world_; }
+  const DropletStep& step() const { return step_; }
+
+  DropletLanes lanes;
+
+ private:
+  void begin_lane(std::size_t lane, const Drop& drop);
+  void end_lane(std::size_t lane);
+  void lay_down(std::size_t lane);
+  void leave(std::size_t lane);
+  void move_lane(std::size_t to, std::size_t from);
+  std::int32_t height_at(std::size_t lane) const;
+  void gather_softness(int first, int count, DropletCorners& corners) const;
+  void record(int first, int count);
+  void carry_colors(int first, int count, const DropletChanges& changes);
+
+  const DropletWorld& world_;
+  const DropletRegion& region_;
+  const std::vector<Drop>& drops_;
+  DropletTally& tally_;
+  DropletStep step_;
+  std::size_t next_ = 0;  ///< drop to start
+  int active_ = 0;
+};
+
+}  // namespace wold

@@ -1,0 +1,273 @@
+#include "erosion/droplets.hpp"
+
+#include <chrono>
+
+#include "../terrain/testing.hpp"
+#include "base/hash.hpp"
+#include "base/parallel.hpp"
+#include "image/io.hpp"
+#include "terrain/analysis.hpp"
+#include "terrain/fbm.hpp"
+#include "terrain/resample.hpp"
+
+namespace wold {
+namespace {
+
+using testing_terrain::error_text;
+using testing_terrain::field_of;
+using testing_terrain::largest_difference;
+using testing_terrain::run;
+
+/// Hills over 1 km.
+Heightfield hills(int samples, std::uint64_t seed = 5) {
+  const Heightfield plane{Grid<float>(samples, samples), DVec2(-500), 1000.0 / (samples - 1)};
+  return run(fbm, plane, FbmGround{.shape = {.height = 250, .feature_size = 600}}, seed);
+}
+
+/// With maps at hand by name.
+TerrainResult run_with(const Heightfield& input, const Droplets& parameters,
+                       const std::map<std::string, Grid<float>>& maps,
+                       const std::filesystem::path& folder = {}) {
+  Progress progress;
+  const std::map<std::string, TerrainResult> none;
+  const TerrainContext context{1, {input.origin, input.size()}, folder, none, progress, &maps};
+  return droplets(input, parameters, context);
+}
+
+void expect_balanced(const TerrainResult& result) {
+  ASSERT_EQ(result.balances.size(), 1U);
+  const Balance& ground = result.balances.front();
+  EXPECT_EQ(ground.quantity, "ground");
+  EXPECT_GT(ground.moved, 0);
+  EXPECT_LE(std::abs(ground.relative_error()), 1e-6);
+}
+
+TEST(Droplets, KeepsTheMass) {
+  const TerrainResult result = run(droplets, hills(129), Droplets{});
+  expect_balanced(result);
+  EXPECT_GT(result.balances.front().removed, 0);
+}
+
+TEST(Droplets, ClosedBorderKeepsEverythingInside) {
+  Droplets p;
+  p.closed_border = true;
+  const TerrainResult result = run(droplets, hills(129), p);
+  expect_balanced(result);
+  EXPECT_EQ(result.balances.front().removed, 0);
+}
+
+TEST(Droplets, MomentumKeepsTheMassToo) {
+  Droplets p;
+  p.variant = DropletVariant::momentum;
+  expect_balanced(run(droplets, hills(129), p));
+}
+
+TEST(Droplets, SedimentIsWhatWearTookAndDidNotLeave) {
+  const Heightfield input = hills(129);
+  const TerrainResult result = run(droplets, input, Droplets{});
+  double wear = 0;
+  double sediment = 0;
+  for (const float w : result.maps.at("wear").values()) wear += static_cast<double>(w);
+  for (const float s : result.maps.at("sediment").values()) sediment += static_cast<double>(s);
+  const Balance& ground = result.balances.front();
+  const double area = input.cell * input.cell;
+  EXPECT_NEAR(wear * area, ground.moved, 1e-4 * ground.moved);
+  EXPECT_NEAR(sediment * area, ground.moved - ground.removed, 1e-3 * ground.moved);
+}
+
+TEST(Droplets, FlatGroundStaysFlat) {
+  const Heightfield flat = field_of(50, 40, 4, DVec2(0), [](DVec2) { return 123.25; });
+  const TerrainResult result = run(droplets, flat, Droplets{});
+  EXPECT_EQ(result.field.height, flat.height);
+}
+
+TEST(Droplets, SameBitsForAnyThreads) {
+  const Heightfield input = hills(257);
+  const std::map<std::string, Grid<float>> maps{{"hard", Grid<float>(257, 257, 0.3F)}};
+  Droplets p;
+  p.hardness = "hard";
+  std::vector<TerrainResult> results;
+  for (const int threads : {1, 2, 4, 4}) {
+    const ThreadLimit limit(threads);
+    results.push_back(run_with(input, p, maps));
+  }
+  for (const TerrainResult& other : results) {
+    EXPECT_EQ(other.field.height, results.front().field.height);
+    for (const auto& [name, map] : other.maps)
+      EXPECT_EQ(map, results.front().maps.at(name)) << name;
+  }
+}
+
+TEST(Droplets, OtherSeedsRainElsewhere) {
+  const Heightfield input = hills(65);
+  EXPECT_NE(run(droplets, input, Droplets{}, 1).field.height,
+            run(droplets, input, Droplets{}, 2).field.height);
+}
+
+// Root of the mean square of a - b.
+double rms(const Grid<float>& a, const Grid<float>& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const double d = static_cast<double>(a.values()[k]) - static_cast<double>(b.values()[k]);
+    sum += d * d;
+  }
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+TEST(Droplets, ResolutionsAgree) {
+  const Heightfield coarse = hills(129);
+  const Grid<float> eroded = run(droplets, coarse, Droplets{}).field.height;
+  const double change = rms(eroded, coarse.height);
+  const HeightStatistics range = height_statistics(coarse);
+  const double relief = rms(coarse.height, Grid<float>(129, 129, static_cast<float>(range.mean)));
+  Progress progress;
+  const TerrainDomain place{coarse.origin, coarse.size()};
+  for (const int samples : {257, 513}) {
+    const Heightfield fine = run(droplets, hills(samples), Droplets{}).field;
+    const Grid<float> brought = resample(fine.height, place, Outside::clamp, coarse, progress);
+    EXPECT_LT(rms(brought, eroded), 0.05 * relief) << samples;
+    EXPECT_LT(rms(brought, eroded), 0.8 * change) << samples;
+  }
+}
+
+TEST(Droplets, MeanWearDoesNotDependOnResolution) {
+  const double coarse = run(droplets, hills(129), Droplets{}).balances.front().moved;
+  const double fine = run(droplets, hills(257), Droplets{}).balances.front().moved;
+  EXPECT_NEAR(fine / coarse, 1, 0.25);
+}
+
+TEST(Droplets, NoSpikesAndNoPits) {
+  const Heightfield input = hills(257);
+  const Heightfield output = run(droplets, input, Droplets{}).field;
+  const auto roughest = [](const Heightfield& field) {
+    float largest = 0;
+    for (const float c : curvature_map(field).values()) largest = std::max(largest, std::abs(c));
+    return largest;
+  };
+  EXPECT_LT(roughest(output), 1.5F * roughest(input));
+}
+
+TEST(Droplets, WhiteIsHard) {
+  const Heightfield input = hills(65);
+  const std::map<std::string, Grid<float>> maps{{"white", Grid<float>(65, 65, 1)},
+                                                {"black", Grid<float>(65, 65, 0)}};
+  Droplets p;
+  p.hardness = "white";
+  EXPECT_EQ(run_with(input, p, maps).field.height, input.height);
+  p.hardness = "black";
+  EXPECT_EQ(run_with(input, p, maps).field.height, run(droplets, input, Droplets{}).field.height);
+  p.hardness_invert = true;
+  EXPECT_EQ(run_with(input, p, maps).field.height, input.height);
+}
+
+TEST(Droplets, HardGroundIsNotLowered) {
+  const Heightfield input = hills(129);
+  Grid<float> half(129, 129);
+  for (int j = 0; j < 129; ++j)
+    for (int i = 0; i < 129; ++i) half(i, j) = i < 64 ? 1.0F : 0.0F;
+  Droplets p;
+  p.hardness = "half";
+  const TerrainResult result = run_with(input, p, {{"half", half}});
+  expect_balanced(result);
+  for (int j = 0; j < 129; ++j)
+    for (int i = 0; i < 64; ++i)
+      ASSERT_GE(result.field.height(i, j), input.height(i, j)) << i << ", " << j;
+}
+
+TEST(Droplets, ItRainsWhereTheMapIsWhite) {
+  const Heightfield input = hills(65);
+  Droplets p;
+  p.rain_map = "none";
+  EXPECT_EQ(run_with(input, p, {{"none", Grid<float>(65, 65, 0)}}).field.height, input.height);
+  p = {};
+  p.rain = 0;
+  EXPECT_EQ(run(droplets, input, p).field.height, input.height);
+}
+
+TEST(Droplets, AnyShapeWorks) {
+  for (const IVec2 size : {IVec2(2, 5), IVec2(5, 2), IVec2(2, 2), IVec2(33, 70), IVec2(130, 7)}) {
+    const Heightfield input = field_of(size.x, size.y, 10, DVec2(-7, 3), [](DVec2 p) {
+      return 30 * std::sin(p.x * 0.05) + 20 * std::cos(p.y * 0.07) - 0.3 * p.x;
+    });
+    for (const bool closed : {false, true}) {
+      Droplets p;
+      p.closed_border = closed;
+      const TerrainResult result = run(droplets, input, p);
+      EXPECT_TRUE(result.field.height.same_shape(input.height));
+      // Very little moves: what remains is the rounding of heights to floats.
+      const Balance& ground = result.balances.front();
+      EXPECT_LE(std::abs(ground.error()), 1e-6 * ground.moved + 4e-6 * 100 * size.x * size.y);
+    }
+  }
+}
+
+TEST(Droplets, ColorGoesWithTheGround) {
+  // Red upper half (west), blue lower half.
+  const testing_terrain::TemporaryFolder folder;
+  Grid<Vec3> picture(64, 64);
+  for (int j = 0; j < 64; ++j)
+    for (int i = 0; i < 64; ++i) picture(i, j) = i < 32 ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
+  write_exr(folder.file("halves.exr"), image_of(picture));
+  const Heightfield input = field_of(65, 65, 10, DVec2(0), [](DVec2 p) {
+    return 300 * std::exp(-p.x / 200) + 3 * std::sin(p.y * 0.05);
+  });
+  Droplets p;
+  p.color = {"halves.exr"};
+  const TerrainResult result = run_with(input, p, {}, folder.path());
+  const Grid<float>& red = result.maps.at("color.red");
+  const Grid<float>& green = result.maps.at("color.green");
+  const Grid<float>& blue = result.maps.at("color.blue");
+  EXPECT_GT(red(50, 32), 0.1F);
+  EXPECT_LT(blue(10, 32), 0.02F);
+  for (std::size_t k = 0; k < red.size(); ++k) {
+    EXPECT_NEAR(red.values()[k] + blue.values()[k], 1, 0.01);
+    EXPECT_NEAR(green.values()[k], 0, 0.01);
+  }
+  EXPECT_EQ(result.field.height, run(droplets, input, Droplets{}).field.height)
+      << "colours do not change the ground";
+}
+
+TEST(Droplets, FlowIsWhereDropsGather) {
+  // A valley along x = 500 m that falls to the north.
+  const Heightfield input = field_of(101, 101, 10, DVec2(0),
+                                     [](DVec2 p) { return 0.3 * std::abs(p.x - 500) - 0.1 * p.y; });
+  const TerrainResult result = run(droplets, input, Droplets{});
+  const Grid<float>& flow = result.maps.at("flow");
+  const Grid<float>& discharge = result.maps.at("discharge");
+  for (const float f : flow.values()) ASSERT_TRUE(f >= 0 && f <= 1);
+  float valley = 0;
+  float side = 0;
+  for (int i = 46; i <= 54; ++i) valley += discharge(i, 80);
+  for (int i = 16; i <= 24; ++i) side += discharge(i, 80);
+  EXPECT_GT(valley, 3 * side);
+}
+
+TEST(Droplets, CanBeCancelled) {
+  Progress progress;
+  progress.cancel();
+  const Heightfield input = hills(129);
+  const std::map<std::string, TerrainResult> none;
+  const TerrainContext context{1, {input.origin, input.size()}, {}, none, progress};
+  EXPECT_NE(error_text([&] { droplets(input, Droplets{}, context); }, ErrorKind::cancelled),
+            "no error");
+}
+
+TEST(Droplets, ErrorsNameWhatIsWrong) {
+  Heightfield input = hills(33);
+  Droplets p;
+  p.erosion = -1;
+  EXPECT_NE(error_text([&] { run(droplets, input, p); }).find("erosion"), std::string::npos);
+  p = {};
+  p.rain = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_NE(error_text([&] { run(droplets, input, p); }).find("rain"), std::string::npos);
+  p = {};
+  p.hardness = "nothing";
+  EXPECT_NE(error_text([&] { run_with(input, p, {}); }, ErrorKind::io).find("nothing"),
+            std::string::npos);
+  input.height(3, 4) = std::numeric_limits<float>::infinity();
+  EXPECT_NE(error_text([&] { run(droplets, input, Droplets{}); }).find("(3, 4)"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace wold
