@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <unordered_map>
+#include <map>
+#include <utility>
 
 #include "mesh/edit.hpp"
 #include "mesh/obj_syntax.hpp"
@@ -51,9 +52,6 @@ DVec3 vector_of(const ObjLines& lines, const std::array<std::string_view, 3>& wo
           lines.number<double>(words[2])};
 }
 
-/// A corner's position and normal as one number.
-using PointKey = std::uint64_t;
-
 /// Numbers the different pairs of position and normal in the order of their first use.
 class PointList {
  public:
@@ -61,18 +59,26 @@ class PointList {
   std::uint32_t operator()(const ObjLines::Corner& corner) {
     const int normal = corner.index[2];
     if (normal < 0) return no_point;
-    const PointKey key =
-        (static_cast<PointKey>(corner.index[0]) << 32U) | static_cast<std::uint32_t>(normal);
-    const auto [place, is_new] = index_.emplace(key, static_cast<std::uint32_t>(normal_of_.size()));
-    if (is_new) normal_of_.push_back(normal);
+    const auto position = static_cast<std::size_t>(corner.index[0]);
+    if (position >= first_.size()) first_.resize(std::max(position + 1, 2 * first_.size()));
+    First& first = first_[position];
+    if (first.normal < 0) first = {normal, count_++};
+    if (first.normal == normal) return first.point;
+    const auto [place, is_new] = others_.emplace(std::pair(corner.index[0], normal), count_);
+    if (is_new) ++count_;
     return place->second;
   }
-  /// The number of the normal that each point has, counted from 0.
-  const std::vector<int>& normal_of() const { return normal_of_; }
 
  private:
-  std::unordered_map<PointKey, std::uint32_t> index_;
-  std::vector<int> normal_of_;
+  /// Of one position, the normal seen first: mostly there is no other.
+  struct First {
+    int normal = -1;
+    std::uint32_t point = 0;
+  };
+
+  std::vector<First> first_;
+  std::map<std::pair<int, int>, std::uint32_t> others_;
+  std::uint32_t count_ = 0;
 };
 
 class Reader {
@@ -87,7 +93,8 @@ class Reader {
     const auto position = static_cast<std::uint32_t>(corner.index[0]);
     const std::uint32_t point = points_(corner);
     if (point == content_.points.size())
-      content_.points.push_back({position, normals_[static_cast<std::size_t>(corner.index[2])]});
+      content_.points.push_back({position, normals_[static_cast<std::size_t>(corner.index[2])],
+                                 static_cast<std::uint32_t>(corner.index[2])});
     triangle_ = count_ == 0 ? UVec3(position) : UVec3(triangle_.x, triangle_.z, position);
     triangle_points_ =
         count_ == 0 ? UVec3(point) : UVec3(triangle_points_.x, triangle_points_.z, point);
@@ -111,18 +118,6 @@ class Reader {
   int count_ = 0;
 };
 
-/// Finds the points of all corners and which normal each has.
-class PointFinder {
- public:
-  void position(const ObjLines&, const std::array<std::string_view, 3>&) {}
-  void normal(const ObjLines&, const std::array<std::string_view, 3>&) { ++normals; }
-  void corner(const ObjLines::Corner& corner) { points(corner); }
-  void end_face() {}
-
-  PointList points;
-  std::size_t normals = 0;
-};
-
 /// The normals of the file to be written: each of the file that was read, and behind it those that
 /// it has become besides.
 struct NormalPlan {
@@ -139,24 +134,52 @@ std::string normal_text(const Vec3& n) {
   return fmt::format("{:.6f} {:.6f} {:.6f}", n.x, n.y, n.z);
 }
 
-NormalPlan plan_of(const Edit& edit, const PointFinder& found) {
+/// How many points each normal has, and whether one of them keeps it.
+struct NormalUse {
+  std::uint32_t points = 0;
+  bool kept = false;
+};
+
+std::vector<NormalUse> uses_of(const Edit& edit) {
+  std::vector<NormalUse> uses;
+  for (std::size_t k = 0; k < edit.turned.size(); ++k) {
+    const std::size_t n = edit.before.points[k].number;
+    if (n >= uses.size()) uses.resize(std::max(n + 1, 2 * uses.size()));
+    ++uses[n].points;
+    uses[n].kept = uses[n].kept || edit.turned[k] == 0;
+  }
+  return uses;
+}
+
+/// The number that each normal begins with in the file to be written, from 1.
+std::vector<std::uint32_t> numbers_of(const std::vector<NormalPlan::Normal>& normals) {
+  std::vector<std::uint32_t> numbers;
+  std::uint32_t next = 1;
+  for (const NormalPlan::Normal& normal : normals) {
+    numbers.push_back(next);
+    next += 1 + static_cast<std::uint32_t>(normal.others.size());
+  }
+  return numbers;
+}
+
+NormalPlan plan_of(const Edit& edit) {
+  const std::vector<NormalUse> uses = uses_of(edit);
   NormalPlan plan;
-  plan.normals.resize(found.normals);
-  plan.number.resize(edit.before.points.size());
-  const std::vector<int>& normal_of = found.points.normal_of();
-  std::vector<std::uint8_t> kept(found.normals, 0);
-  for (std::size_t k = 0; k < edit.turned.size(); ++k)
-    if (edit.turned[k] == 0) kept[static_cast<std::size_t>(normal_of[k])] = 1;
-  // Within each normal: 0 for the first, then the others. Points come in order, so texts repeat
-  // soon if they do.
-  std::unordered_map<std::string, std::uint32_t> places;
+  plan.normals.resize(uses.size());
+  plan.number.resize(edit.turned.size());
+  // For normals with several points: by number and text, 0 for the first, then the others.
+  std::map<std::pair<std::uint32_t, std::string>, std::uint32_t> places;
   for (std::size_t k = 0; k < edit.turned.size(); ++k) {
     if (edit.turned[k] == 0) continue;
-    const auto n = static_cast<std::size_t>(normal_of[k]);
+    const std::uint32_t n = edit.before.points[k].number;
     NormalPlan::Normal& normal = plan.normals[n];
     std::string text = normal_text(edit.normals[k]);
-    const auto [place, is_new] = places.emplace(fmt::format("{} {}", n, text), 0);
-    if (is_new && kept[n] == 0 && normal.first.empty()) {
+    if (uses[n].points == 1) {
+      normal.first = std::move(text);
+      continue;
+    }
+    const auto [place, is_new] = places.emplace(std::pair(n, text), 0);
+    if (is_new && !uses[n].kept && normal.first.empty()) {
       normal.first = std::move(text);
     } else if (is_new) {
       normal.others.push_back(std::move(text));
@@ -165,14 +188,9 @@ NormalPlan plan_of(const Edit& edit, const PointFinder& found) {
     }
     plan.number[k] = place->second;
   }
-  std::vector<std::uint32_t> first_number;
-  std::uint32_t next = 1;
-  for (const NormalPlan::Normal& normal : plan.normals) {
-    first_number.push_back(next);
-    next += 1 + static_cast<std::uint32_t>(normal.others.size());
-  }
+  const std::vector<std::uint32_t> numbers = numbers_of(plan.normals);
   for (std::size_t k = 0; k < plan.number.size(); ++k)
-    plan.number[k] += first_number[static_cast<std::size_t>(normal_of[k])];
+    plan.number[k] += numbers[edit.before.points[k].number];
   return plan;
 }
 
@@ -191,7 +209,7 @@ class Writer {
         patch_.replace(words[static_cast<std::size_t>(c)], number_text(edit_.positions[k][c]));
   }
   void normal(const ObjLines&, const std::array<std::string_view, 3>& words) {
-    if (plan_.normals.empty()) return;
+    if (normal_ >= plan_.normals.size()) return;  // used by no face
     const NormalPlan::Normal& normal = plan_.normals[normal_++];
     const char* begin = words[0].data();
     const std::string_view numbers(
@@ -229,9 +247,7 @@ Content obj_content(std::string_view bytes, const std::string& file) {
 }
 
 std::string edited_obj(std::string_view bytes, const std::string& file, const Edit& edit) {
-  PointFinder found;
-  if (!edit.before.points.empty()) scan(bytes, file, found);
-  const NormalPlan plan = plan_of(edit, found);
+  const NormalPlan plan = plan_of(edit);
   Writer writer(bytes, edit, plan);
   scan(bytes, file, writer);
   return std::move(writer).finish();

@@ -41,6 +41,7 @@ inline constexpr std::uint32_t no_point = 0xffffffffU;
 struct Point {
   std::uint32_t position = 0;
   Vec3 normal{0};
+  std::uint32_t number = 0;  ///< of the normal in an OBJ file, from 0
 };
 
 /// What the file holds, in its own axes.
