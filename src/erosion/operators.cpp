@@ -2,6 +2,7 @@
 
 #include "erosion/drainage.hpp"
 #include "erosion/droplets.hpp"
+#include "erosion/pipes.hpp"
 
 namespace wold {
 
@@ -16,6 +17,13 @@ OperatorList erosion_operators() {
                         .maps = {"flow", "discharge", "velocity", "wear", "sediment", "color.red",
                                  "color.green", "color.blue"},
                         .bytes_per_sample = 40}),
+      terrain_operator(pipes,
+                       {.map_references = [](const Pipes& p) -> std::vector<std::string> {
+                          return {p.rain_map, p.water, p.hardness};
+                        },
+                        .maps = {"water", "velocity", "velocity_x", "velocity_y", "wetness", "wear",
+                                 "sediment", "carried"},
+                        .bytes_per_sample = 96}),
   };
 }
 

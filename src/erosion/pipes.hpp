@@ -1,0 +1,98 @@
+#pragma once
+// Erosion by water that runs: rain and springs, rivers and lakes, valleys and fans.
+//
+// The pipe model of Mei, Decaudin, Hu (2007), "Fast Hydraulic Erosion Simulation and Visualization
+// on GPU", mended where it says so. Each cell has ground b, water depth d and sediment s in the
+// water (as depth of ground, m); a pipe joins it to each of its 4 neighbours. With cells of l
+// metres and steps of Δt seconds, surface h = b + d:
+//
+//   pipe        q' = (q + g Δt d_p (h_1 - h_2) / l) / (1 + Δt c |q| / d_f²)         m²/s
+//   limit       K = min(1, d l / (Δt Σ q'_out)),  q = K q' of the cell that it leaves
+//   water       d += Δt/l (Σ q_in - Σ q_out) + rain + springs - evaporation
+//   sediment    s += Δt/l (Σ q_in s/d - Σ q_out s/d), the s/d of the cell that it leaves
+//   capacity    C = K_c sin max(α, α_min) |v| min(1, d / D)                        m
+//   exchange    b -= x, s += x,  x = (C - s) (1 - e^(-K Δt)),  K = K_s if C > s, else K_d
+//
+// d_f = max(h_1, h_2) - max(b_1, b_2) is the depth of water over the sill between two cells, d_p =
+// min(d_f, pipe_depth), c the drag coefficient (shear stress over density and squared speed), v the
+// mean velocity of the four pipes, α the slope of the ground, D full_depth, K_s dissolving, K_d
+// depositing. |q| is that of the whole vector. A steady flow down a plane runs with v² = g d S / c.
+//
+// Mended slips of the paper:
+// - Its pipes have a fixed section, which makes waves as fast in shallow water as in deep. Ours
+//   have the section l d_f: waves run with sqrt(g d) (the scheme is then that of Bates, Horritt,
+//   Fewtrell 2010, J. Hydrology 387). Momentum is not carried along, as in the paper.
+// - It has no friction, so nothing but the length of its pipes limits speed on a slope.
+// - It moves sediment by looking back along the velocity, which makes and loses material. Ours goes
+//   with the water through the same pipes (first-order upwind): every grain taken is laid down
+//   somewhere, or leaves with the water.
+// - The same capacity for a film as for a river: ours grows with depth up to `full_depth`.
+// - Erosion x is at most a quarter of the drop to the lowest neighbour (and of that of the least
+//   slope), so water digs no holes; every 8 steps each new change of the ground is spread a cell
+//   wide, sediment strays down side slopes, and banks that were cut steeper than `bank_angle`
+//   slide: no spikes, no channels one cell wide that can only run along the grid.
+//
+// Steps: Δt <= 0.9 l / (√2 max(sqrt(g pipe_depth), 3/2 top_speed)): neither a wave in water of
+// `pipe_depth` nor a flood (which moves at 3/2 of its speed) crosses a cell in both directions in a
+// step. Deeper lakes level out as slowly as if they were `pipe_depth` deep; their surface is flat
+// all the same.
+//
+// Mass: depths and the change of the ground are counted in whole grains of 2^-21 m; what one cell
+// gives is, to the grain, what its neighbour takes. So nothing is lost but in the last rounding of
+// heights to float, which is handed on from sample to sample.
+//
+// From coarse to fine: the storm runs `duration` hours over cells of `start_cell`, then a quarter
+// of that over cells half as large, and so on down to the samples of the input: broad valleys are
+// cut on coarse grids, brooks on fine ones, at a cost of about twice the last. The change so far,
+// water and sediment go from grid to grid with their volumes kept; the ground's own detail is never
+// blurred. As the ladder is in metres, the same land comes out at any resolution.
+//
+// The speed of the paper's world is kept, its time is not: water that carries `capacity` as great
+// as this does in hours what rivers do in ages.
+
+#include <string>
+#include <vector>
+
+#include "terrain/operator.hpp"
+
+namespace wold {
+
+enum class WaterBorder { open, closed, periodic };
+
+struct Pipes {
+  float duration = 10;                ///< h
+  float rain = 40;                    ///< mm/h
+  std::string rain_map;               ///< factor of the rain
+  std::vector<double> spring_places;  ///< m, x and y of each
+  std::vector<double> spring_rates;   ///< m³/s
+  float spring_radius = 25;           ///< m
+  std::string water;                  ///< map of depths at the beginning, m
+  bool lakes = true;                  ///< hollows are full at the beginning
+  float evaporation = 0;              ///< share of the depth per hour
+  WaterBorder border = WaterBorder::open;
+  float capacity = 1.5F;     ///< K_c, s
+  float full_depth = 0.05F;  ///< D, m
+  float least_slope = 0.5F;  ///< α_min, degrees
+  float dissolving = 0.01F;  ///< K_s, 1/s
+  float depositing = 0.01F;  ///< K_d, 1/s
+  float bank_angle = 38;     ///< degrees
+  float stirring = 0.3F;     ///< sediment that strays down a side slope of 1, of that carried
+  std::string hardness;      ///< map
+  bool hardness_invert = false;
+  float drag = 0.05F;    ///< c
+  float pipe_depth = 5;  ///< m
+  float top_speed = 5;   ///< m/s
+  float start_cell = 0;  ///< m
+};
+
+Description<Pipes> describe(const Pipes&);
+
+/// Maps: "water" (depth at the end, m), "velocity", "velocity_x", "velocity_y" (m/s), "wetness"
+/// (share of the time on the finest grid under 1 cm of water or more), "wear" and "sediment" (what
+/// the ground lost or gained, m), "carried" (what was in the water at the end and has sunk where it
+/// was, m). Throws Error(input) for ground, parameters, springs and maps that are not what they may
+/// be, Error(limit) for water deeper than can be counted (512 m), Error(cancelled).
+TerrainResult pipes(const Heightfield& input, const Pipes& parameters,
+                    const TerrainContext& context);
+
+}  // namespace wold

@@ -1,0 +1,454 @@
+#include "erosion/pipes_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/parallel.hpp"
+
+namespace wold::pipes_detail {
+
+namespace {
+
+constexpr double gravity = 9.81;        // m/s²
+constexpr int steps_between_rains = 8;  // rain, evaporation and slides come every so many steps
+constexpr float wet_depth = 0.01F;      // m
+constexpr Grains deepest = 1 << 30;     // grains; half of what an integer holds
+
+/// The longest stable step, s: the header's bound.
+double longest_step(double cell, const Pipes& p) {
+  const double wave = std::sqrt(gravity * static_cast<double>(p.pipe_depth));
+  const double flood = 1.5 * static_cast<double>(p.top_speed);
+  return 0.9 * cell / (std::sqrt(2.0) * std::max(wave, flood));
+}
+
+StepConstants constants_of(const Pipes& p, double cell, double step) {
+  const double tangent = std::tan(radians(static_cast<double>(p.least_slope)));
+  const auto share = [&](float rate) {
+    return static_cast<float>(-std::expm1(-static_cast<double>(rate) * step));
+  };
+  StepConstants c;
+  c.gravity_step = static_cast<float>(gravity * step / cell);
+  c.drag_step = static_cast<float>(static_cast<double>(p.drag) * step);
+  c.pipe_depth = p.pipe_depth;
+  c.top_speed = p.top_speed;
+  c.grains_per_flux = static_cast<float>(step / cell) * grains_per_metre;
+  c.half_per_cell = static_cast<float>(0.5 / cell);
+  c.capacity = p.capacity / p.full_depth * grains_per_metre;
+  c.least_sine = static_cast<float>(std::sin(radians(static_cast<double>(p.least_slope))));
+  c.full_depth = p.full_depth;
+  c.dissolve = share(p.dissolving);
+  c.deposit = share(p.depositing);
+  c.least_drop = static_cast<float>(cell * tangent) * grains_per_metre;
+  return c;
+}
+
+template <class T>
+void fill_from(GhostGrid<T>& out, const Grid<T>& in, bool periodic) {
+  for (int j = 0; j < in.height(); ++j) {
+    std::copy(in.row(j).begin(), in.row(j).end(), out.row(j));
+    out.fill_sides(j, periodic);
+  }
+  out.fill_ends(periodic);
+}
+
+int rows_per_band(int height) {
+  return std::clamp(height / 12, 16, 64);
+}
+
+}  // namespace
+
+GrainSums& GrainSums::operator+=(const GrainSums& b) {
+  water_in += b.water_in;
+  water_evaporated += b.water_evaporated;
+  water_out += b.water_out;
+  sediment_out += b.sediment_out;
+  taken_up += b.taken_up;
+  return *this;
+}
+
+/// Rows [first, last) and the rows of working values that roll over them; two of each kind, for
+/// even and odd rows.
+struct PipeSolver::Band {
+  Band(int first_row, int last_row, int width)
+      : first(first_row),
+        last(last_row),
+        east(width + 1, 2),
+        north(width, 2),
+        share(width, 2),
+        load(width, 2),
+        discharge_y(width, 2),
+        water_x(width + 1, 1),
+        sediment_x(width + 1, 1),
+        water_y(width, 2),
+        sediment_y(width, 2),
+        moved(width, 1),
+        outside(width, 1),
+        dry(width, 1) {}
+
+  int first;
+  int last;
+  GhostGrid<float> east;   ///< driven through western faces
+  GhostGrid<float> north;  ///< driven through southern faces
+  GhostGrid<float> share;
+  GhostGrid<float> load;
+  GhostGrid<float> discharge_y;
+  GhostGrid<Grains> water_x;
+  GhostGrid<Grains> sediment_x;
+  GhostGrid<Grains> water_y;
+  GhostGrid<Grains> sediment_y;
+  GhostGrid<Grains> moved;
+  GhostGrid<float> outside;  ///< ground beyond an open border
+  GhostGrid<Grains> dry;     ///< zeros
+  FaceRow faces_y[2] = {};
+  GrainSums sums;
+};
+
+PipeSolver::PipeSolver(PipeStart start, const Pipes& parameters)
+    : parameters_(parameters),
+      start_(std::move(start)),
+      width_(start_.ground.height.width()),
+      height_(start_.ground.height.height()),
+      periodic_(parameters.border == WaterBorder::periodic),
+      ground_(width_, height_),
+      ease_(width_, height_),
+      rise_(width_, height_),
+      tangent_(width_, height_),
+      stir_(width_, height_),
+      wet_time_(width_, height_) {
+  fill_from(ground_, start_.ground.height, periodic_);
+  fill_from(ease_, start_.ease, periodic_);
+  now_ = {{width_, height_},
+          {width_, height_},
+          {width_, height_},
+          {width_ + 1, height_},
+          {width_, height_ + 1}};
+  next_ = now_;
+  fill_from(now_.depth, start_.depth, periodic_);
+  fill_from(now_.sediment, start_.sediment, periodic_);
+  fill_from(now_.change, start_.change, periodic_);
+  slid_ = now_.change;
+  const int rows = rows_per_band(height_);
+  for (int j = 0; j < height_; j += rows)
+    bands_.emplace_back(j, std::min(j + rows, height_), width_);
+}
+
+PipeSolver::~PipeSolver() = default;
+
+double PipeSolver::step_count(double seconds, double cell, const Pipes& parameters) {
+  return std::ceil(seconds / longest_step(cell, parameters));
+}
+
+void PipeSolver::run(double seconds, Progress& progress) {
+  const double steps = step_count(seconds, start_.ground.cell, parameters_);
+  if (steps < 1) return;
+  const double step_seconds = seconds / steps;
+  constants_ = constants_of(parameters_, start_.ground.cell, step_seconds);
+  const double cells = static_cast<double>(width_) * height_;
+  for (double done = 0; done < steps;) {
+    const int count = static_cast<int>(std::min(steps - done, 1.0 * steps_between_rains));
+    let_rain(count * step_seconds, progress);
+    for (int k = 0; k < count; ++k) {
+      step(progress);
+      progress.advance(cells);
+    }
+    let_slide(count * step_seconds, progress);
+    done += count;
+  }
+}
+
+int PipeSolver::row_of(int j) const {
+  return periodic_ ? (j + height_) % height_ : j;
+}
+
+RowState PipeSolver::state(int j) const {
+  return {ground_.row(j), now_.change.row(j), now_.depth.row(j)};
+}
+
+void PipeSolver::step(Progress& progress) {
+  parallel_for(0, static_cast<int>(bands_.size()), [&](int b) { step_band(b, progress); });
+  for (Band& band : bands_) sums_ += std::exchange(band.sums, {});
+  std::swap(now_, next_);
+  fill_ends(now_);
+}
+
+void PipeSolver::fill_ends(Fields& fields) const {
+  fields.depth.fill_ends(periodic_);
+  fields.sediment.fill_ends(periodic_);
+  fields.change.fill_ends(periodic_);
+}
+
+void PipeSolver::step_band(int index, Progress& progress) {
+  progress.check();
+  Band& band = bands_[static_cast<std::size_t>(index)];
+  std::fill_n(band.moved.row(0), width_, 0);
+  drive_y(band, band.first - 1);
+  for (int j = band.first - 1; j <= band.last; ++j) {
+    drive_y(band, j + 1);
+    drive_x(band, j);
+    limit_row(band, j);
+    if (j >= band.first) pass_y(band, j, j < band.last || j == height_);
+    if (j > band.first) finish_row(band, j - 1);
+  }
+  const Grains* moved = band.moved.row(0);
+  for (int i = 0; i < width_; ++i) band.sums.taken_up += moved[i];
+}
+
+void PipeSolver::drive_x(Band& band, int j) const {
+  if (!periodic_ && (j < 0 || j >= height_)) return;
+  const int row = row_of(j);
+  const RowState at = state(row);
+  const float* before = now_.west.row(row);
+  float* out = band.east.row(j & 1);
+  drive({at.ground - 1, at.change - 1, at.depth - 1}, at, before, now_.south.row(row) - 1,
+        now_.south.row(row + 1) - 1, out, width_ + 1, constants_);
+  if (periodic_) return;
+  out[0] = out[width_] = 0;
+  if (parameters_.border != WaterBorder::open) return;
+  const Grains none = 0;
+  const float none_across[2] = {0, 0};
+  const auto outflow = [&](int edge, int inner, float flow) {
+    const float rise = (at.ground[inner] - at.ground[edge]) +
+                       metres_per_grain * static_cast<float>(at.change[inner] - at.change[edge]);
+    const float beyond = at.ground[edge] - std::max(rise, 0.0F);
+    float driven = 0;
+    drive({at.ground + edge, at.change + edge, at.depth + edge}, {&beyond, at.change + edge, &none},
+          &flow, none_across, none_across, &driven, 1, constants_);
+    return driven;
+  };
+  out[0] = -outflow(0, 1, -before[0]);
+  out[width_] = outflow(width_ - 1, width_ - 2, before[width_]);
+}
+
+void PipeSolver::drive_y(Band& band, int face) const {
+  if (!periodic_ && (face < 0 || face > height_)) return;
+  const int row = row_of(face);
+  float* out = band.north.row(face & 1);
+  const float* before = now_.south.row(row);
+  if (periodic_ || (face > 0 && face < height_)) {
+    drive(state(row - 1), state(row), before, now_.west.row(row_of(row - 1)),
+          now_.west.row(row_of(row)), out, width_, constants_);
+    return;
+  }
+  std::fill_n(out, width_, 0.0F);
+  if (parameters_.border != WaterBorder::open) return;
+  const int edge = face == 0 ? 0 : height_ - 1;
+  const RowState at = state(edge);
+  const RowState inner = state(face == 0 ? 1 : height_ - 2);
+  float* beyond = band.outside.row(0);
+  for (int i = 0; i < width_; ++i) {
+    const float rise = (inner.ground[i] - at.ground[i]) +
+                       metres_per_grain * static_cast<float>(inner.change[i] - at.change[i]);
+    beyond[i] = at.ground[i] - std::max(rise, 0.0F);
+  }
+  const RowState outside{beyond, at.change, band.dry.row(0)};
+  const float* across = now_.west.row(edge);
+  if (face == 0)
+    drive(outside, at, before, across, across, out, width_, constants_);
+  else
+    drive(at, outside, before, across, across, out, width_, constants_);
+}
+
+void PipeSolver::limit_row(Band& band, int j) const {
+  if (!periodic_ && (j < 0 || j >= height_)) return;
+  const int row = row_of(j);
+  limit(now_.depth.row(row), now_.sediment.row(row), band.east.row(j & 1), band.north.row(j & 1),
+        band.north.row((j + 1) & 1), band.share.row(j & 1), band.load.row(j & 1), width_,
+        constants_);
+  band.share.fill_sides(j & 1, periodic_);
+  band.load.fill_sides(j & 1, periodic_);
+}
+
+void PipeSolver::pass_y(Band& band, int face, bool owner) {
+  const int at = face & 1;
+  const int below = at ^ 1;
+  float* discharge = owner ? next_.south.row(face) : band.discharge_y.row(at);
+  band.faces_y[at] = {discharge, band.water_y.row(at), band.sediment_y.row(at)};
+  pass(band.north.row(at), band.share.row(below), band.share.row(at), band.load.row(below),
+       band.load.row(at), band.faces_y[at], width_, constants_);
+  if (owner) next_.south.fill_sides(face, periodic_);
+  if (periodic_ || (face != 0 && face != height_)) return;
+  const int sign = face == 0 ? -1 : 1;
+  for (int i = 0; i < width_; ++i) {
+    band.sums.water_out += sign * band.faces_y[at].water[i];
+    band.sums.sediment_out += sign * band.faces_y[at].sediment[i];
+  }
+}
+
+void PipeSolver::finish_row(Band& band, int j) {
+  const int at = j & 1;
+  const FaceRow west{next_.west.row(j), band.water_x.row(0), band.sediment_x.row(0)};
+  pass(band.east.row(at), band.share.row(at) - 1, band.share.row(at), band.load.row(at) - 1,
+       band.load.row(at), west, width_ + 1, constants_);
+  if (!periodic_) {
+    band.sums.water_out += west.water[width_] - west.water[0];
+    band.sums.sediment_out += west.sediment[width_] - west.sediment[0];
+  }
+  exchange({west, band.faces_y[at], band.faces_y[at ^ 1], state(j - 1), state(j), state(j + 1),
+            now_.sediment.row(j), ease_.row(j)},
+           next_.depth.row(j), next_.sediment.row(j), next_.change.row(j), band.moved.row(0),
+           width_, constants_);
+  if (parameters_.border == WaterBorder::open) hold_border(band, j);
+  next_.depth.fill_sides(j, periodic_);
+  next_.sediment.fill_sides(j, periodic_);
+  next_.change.fill_sides(j, periodic_);
+}
+
+void PipeSolver::hold_border(Band& band, int j) {
+  const bool end = j == 0 || j == height_ - 1;
+  const int inner_row = j == 0 ? 1 : height_ - 2;
+  const RowState at = state(j);
+  Grains* change = next_.change.row(j);
+  Grains* sediment = next_.sediment.row(j);
+  for (int i = 0; i < width_; i += end ? 1 : width_ - 1) {
+    const RowState inner = end ? state(inner_row) : at;
+    const int k = end ? i : (i == 0 ? 1 : width_ - 2);
+    const float drop = (at.ground[i] - inner.ground[k]) +
+                       metres_per_grain * static_cast<float>(at.change[i] - inner.change[k]);
+    const auto most = static_cast<Grains>(0.25F * grains_per_metre * std::max(drop, 0.0F));
+    const Grains taken = at.change[i] - change[i];
+    const Grains given_back = std::max(taken - most, 0);
+    change[i] += given_back;
+    sediment[i] -= given_back;
+    band.moved.row(0)[i] -= given_back;
+  }
+}
+
+void PipeSolver::let_rain(double seconds, Progress& progress) {
+  // What is less than a grain comes by turns: in the mean nothing is lost to rounding.
+  const double golden = 0.6180339887498949;
+  const auto turn = static_cast<float>(std::fmod(++rains_ * golden, 1.0));
+  const double grains = seconds * static_cast<double>(grains_per_metre);
+  const auto rain_step = static_cast<float>(grains);
+  const auto lost = static_cast<float>(
+      -std::expm1(-static_cast<double>(parameters_.evaporation) * seconds / 3600));
+  const auto passed = static_cast<float>(seconds);
+  time_ += seconds;
+  std::vector<GrainSums> sums(static_cast<std::size_t>(height_));
+  parallel_for(
+      0, height_,
+      [&](int j) {
+        progress.check();
+        Grains* depth = now_.depth.row(j);
+        const float* inflow = start_.inflow.row(j).data();
+        float* wet = wet_time_.row(j).data();
+        std::int64_t in = 0;
+        std::int64_t out = 0;
+        Grains most = 0;
+        for (int i = 0; i < width_; ++i) {
+          const auto gained = static_cast<Grains>(inflow[i] * rain_step + turn);
+          const Grains held = depth[i] + gained;
+          const auto gone = static_cast<Grains>(static_cast<float>(held) * lost + turn);
+          const Grains evaporated = lost > 0 ? std::min(gone, held) : 0;
+          depth[i] = held - evaporated;
+          in += gained;
+          out += evaporated;
+          most = std::max(most, held);
+          wet[i] += metres_per_grain * static_cast<float>(held) >= wet_depth ? passed : 0.0F;
+        }
+        if (most > deepest)
+          throw Error(ErrorKind::limit,
+                      fmt::format("'pipes' counts water up to {:g} m deep; here it gets deeper",
+                                  static_cast<double>(metres_per_grain) * deepest));
+        sums[static_cast<std::size_t>(j)] = {in, out, 0, 0, 0};
+        now_.depth.fill_sides(j, periodic_);
+      },
+      16);
+  for (const GrainSums& s : sums) sums_ += s;
+  now_.depth.fill_ends(periodic_);
+}
+
+SlideState PipeSolver::slide_state(int j) const {
+  return {ground_.row(j),  now_.change.row(j), rise_.row(j),
+          tangent_.row(j), stir_.row(j),       slid_.row(j)};
+}
+
+void PipeSolver::prepare_slide(int j, float stir_per_discharge) {
+  float* rise = rise_.row(j);
+  float* tangent = tangent_.row(j);
+  float* stir = stir_.row(j);
+  const float* ground = ground_.row(j);
+  const Grains* change = now_.change.row(j);
+  if (start_.material) {
+    start_.material(j, {ground, change, ease_.row(j), rise, tangent});
+  } else {
+    const float steepest = std::tan(radians(parameters_.bank_angle));
+    for (int i = 0; i < width_; ++i) {
+      rise[i] = (ground[i] + metres_per_grain * static_cast<float>(change[i])) / steepest;
+      tangent[i] = steepest;
+    }
+  }
+  sediment_discharge(now_.depth.row(j), now_.sediment.row(j), now_.west.row(j), now_.south.row(j),
+                     now_.south.row(j + 1), stir, width_);
+  for (int i = 0; i < width_; ++i) stir[i] = 0.5F * stir_per_discharge * stir[i];
+  rise_.fill_sides(j, periodic_);
+  tangent_.fill_sides(j, periodic_);
+  stir_.fill_sides(j, periodic_);
+}
+
+void PipeSolver::let_slide(double seconds, Progress& progress) {
+  const double cell = start_.ground.cell;
+  const auto stir =
+      static_cast<float>(static_cast<double>(parameters_.stirring) * seconds / (cell * cell));
+  parallel_for(
+      0, height_,
+      [&](int j) {
+        progress.check();
+        prepare_slide(j, stir);
+      },
+      16);
+  rise_.fill_ends(periodic_);
+  tangent_.fill_ends(periodic_);
+  stir_.fill_ends(periodic_);
+  std::vector<std::int64_t> moved(static_cast<std::size_t>(height_));
+  parallel_for(
+      0, height_,
+      [&](int j) {
+        progress.check();
+        moved[static_cast<std::size_t>(j)] =
+            slide(slide_state(j - 1), slide_state(j), slide_state(j + 1), next_.change.row(j),
+                  width_, {static_cast<float>(cell), !start_.material});
+        next_.change.fill_sides(j, periodic_);
+      },
+      16);
+  for (const std::int64_t m : moved) sums_.taken_up += m;
+  std::swap(now_.change, next_.change);
+  now_.change.fill_ends(periodic_);
+  slid_ = now_.change;
+}
+
+Grid<Grains> PipeSolver::copy_of(const GhostGrid<Grains>& grid) {
+  Grid<Grains> out(grid.width(), grid.height());
+  for (int j = 0; j < grid.height(); ++j)
+    std::copy_n(grid.row(j), grid.width(), out.row(j).begin());
+  return out;
+}
+
+Grid<float> PipeSolver::velocity_x() const {
+  Grid<float> out(width_, height_);
+  for (int j = 0; j < height_; ++j)
+    for (int i = 0; i < width_; ++i)
+      out(i, j) = speed_of(now_.west.row(j)[i], now_.west.row(j)[i + 1], now_.depth.row(j)[i],
+                           parameters_.top_speed);
+  return out;
+}
+
+Grid<float> PipeSolver::velocity_y() const {
+  Grid<float> out(width_, height_);
+  for (int j = 0; j < height_; ++j)
+    for (int i = 0; i < width_; ++i)
+      out(i, j) = speed_of(now_.south.row(j)[i], now_.south.row(j + 1)[i], now_.depth.row(j)[i],
+                           parameters_.top_speed);
+  return out;
+}
+
+Grid<float> PipeSolver::wetness() const {
+  Grid<float> out = wet_time_;
+  const auto whole = static_cast<float>(std::max(time_, 1e-9));
+  for (float& w : out.values()) w /= whole;
+  return out;
+}
+
+}  // namespace wold::pipes_detail
