@@ -46,33 +46,48 @@ void directions_of_row(const Grid<float>& height, int j, std::span<int> directio
   }
 }
 
-/// Walks downstream through the band of samples [first, last) and beyond its border if there is
-/// none.
+/// What flows out of a band of rows.
+template <class Amount>
+struct Crossing {
+  int receiver = 0;
+  Amount amount = 0;
+};
+
+/// Walks downstream, and adds up amounts.
+template <class Amount>
 class Walker {
  public:
-  Walker(const Grid<std::uint8_t>& direction, std::span<std::uint8_t> waiting)
-      : direction_(direction.values()), waiting_(waiting), width_(direction.width()) {}
+  Walker(const Grid<std::uint8_t>& direction, std::span<std::uint8_t> waiting,
+         std::span<Amount> amounts)
+      : direction_(direction.values().data()), waiting_(waiting.data()), amounts_(amounts.data()) {
+    for (int d = 0; d < 8; ++d)
+      step_[static_cast<std::size_t>(d)] = flow_step(d, direction.width());
+  }
 
-  /// From k, whose donors are all done. What would be next but lies outside the band is put aside.
-  void walk(int k, int first, int last, std::vector<int>& nodes, std::vector<int>& outside) const {
+  /// From k, whose donors are all done, on as long as no other donor is missing. What leaves the
+  /// samples [first, last) is put aside.
+  void walk(int k, int first, int last, std::vector<int>& nodes,
+            std::vector<Crossing<Amount>>& outside) const {
     for (;;) {
       nodes.push_back(k);
-      const int d = direction_[static_cast<std::size_t>(k)];
+      const int d = direction_[k];
       if (d >= flow_stops) return;
-      const int receiver = k + flow_step(d, width_);
+      const int receiver = k + step_[static_cast<std::size_t>(d)];
       if (receiver < first || receiver >= last) {
-        outside.push_back(receiver);
+        outside.push_back({receiver, amounts_[k]});
         return;
       }
-      if (--waiting_[static_cast<std::size_t>(receiver)] != 0) return;
+      amounts_[receiver] += amounts_[k];
+      if (--waiting_[receiver] != 0) return;
       k = receiver;
     }
   }
 
  private:
-  std::span<const std::uint8_t> direction_;
-  std::span<std::uint8_t> waiting_;
-  int width_;
+  const std::uint8_t* direction_;
+  std::uint8_t* waiting_;
+  Amount* amounts_;
+  std::array<int, 8> step_{};
 };
 
 }  // namespace
@@ -101,13 +116,15 @@ Grid<std::uint8_t> d8_directions(const Grid<float>& height, Progress& progress) 
   return out;
 }
 
-Grid<std::uint8_t> donor_counts(const Grid<std::uint8_t>& direction, Progress& progress) {
+void donor_counts(const Grid<std::uint8_t>& direction, Grid<std::uint8_t>& count,
+                  Progress& progress) {
   const int w = direction.width();
-  Grid<std::uint8_t> count(w, direction.height());
+  if (!count.same_shape(direction)) count = Grid<std::uint8_t>(w, direction.height());
   parallel_for(
       0, direction.height(),
       [&](int j) {
         const std::span<std::uint8_t> out = count.row(j);
+        std::fill(out.begin(), out.end(), std::uint8_t{0});
         for (int d = 0; d < 8; ++d) {
           const int y = j + flow_dy[static_cast<std::size_t>(d)];
           if (y < 0 || y >= direction.height()) continue;
@@ -121,33 +138,53 @@ Grid<std::uint8_t> donor_counts(const Grid<std::uint8_t>& direction, Progress& p
         progress.check();
       },
       8);
-  return count;
 }
 
-FlowOrder::FlowOrder(const Grid<std::uint8_t>& direction, Progress& progress) {
+template <class Amount>
+void FlowOrder::build_with(const Grid<std::uint8_t>& direction, std::span<Amount> amounts,
+                           Progress& progress) {
   const int w = direction.width();
   const int h = direction.height();
-  const Grid<std::uint8_t> donors = donor_counts(direction, progress);
-  Grid<std::uint8_t> waiting = donors;
-  const Walker walker(direction, waiting.values());
+  donor_counts(direction, donors_, progress);
+  waiting_ = donors_;
+  const Walker<Amount> walker(direction, waiting_.values(), amounts);
   bands_.resize(static_cast<std::size_t>((h + band_rows - 1) / band_rows));
-  std::vector<std::vector<int>> outside(bands_.size());
+  std::vector<std::vector<Crossing<Amount>>> outside(bands_.size());
   parallel_for(0, bands(), [&](int b) {
     const auto band = static_cast<std::size_t>(b);
     const int first = b * band_rows * w;
     const int last = std::min(h, (b + 1) * band_rows) * w;
+    bands_[band].clear();
     bands_[band].reserve(static_cast<std::size_t>(last - first));
     for (int k = first; k < last; ++k) {
-      if (donors.values()[static_cast<std::size_t>(k)] == 0)
+      if (donors_.values()[static_cast<std::size_t>(k)] == 0)
         walker.walk(k, first, last, bands_[band], outside[band]);
       if (k % w == 0) progress.check();
     }
   });
-  std::vector<int> nowhere;
-  for (const std::vector<int>& receivers : outside)
-    for (const int k : receivers)
-      if (--waiting.values()[static_cast<std::size_t>(k)] == 0)
-        walker.walk(k, 0, w * h, trunk_, nowhere);
+  trunk_.clear();
+  std::vector<Crossing<Amount>> nowhere;
+  for (const std::vector<Crossing<Amount>>& crossings : outside)
+    for (const Crossing<Amount>& c : crossings) {
+      amounts[static_cast<std::size_t>(c.receiver)] += c.amount;
+      if (--waiting_.values()[static_cast<std::size_t>(c.receiver)] == 0)
+        walker.walk(c.receiver, 0, w * h, trunk_, nowhere);
+    }
+}
+
+void FlowOrder::build(const Grid<std::uint8_t>& direction, std::span<std::int32_t> amounts,
+                      Progress& progress) {
+  build_with(direction, amounts, progress);
+}
+
+void FlowOrder::build(const Grid<std::uint8_t>& direction, std::span<std::int64_t> amounts,
+                      Progress& progress) {
+  build_with(direction, amounts, progress);
+}
+
+FlowOrder::FlowOrder(const Grid<std::uint8_t>& direction, Progress& progress) {
+  std::vector<std::int32_t> none(direction.size());
+  build(direction, none, progress);
 }
 
 Grid<double> d8_area(const Grid<std::uint8_t>& direction, const FlowOrder& order, double cell) {

@@ -47,17 +47,43 @@ constexpr int flow_step(int direction, int width) {
          flow_dx[static_cast<std::size_t>(direction)];
 }
 
+/// Sides of a field, as where something may pass.
+struct Sides {
+  bool west = false;
+  bool east = false;
+  bool south = false;
+  bool north = false;
+
+  /// Whether sample (i, j) of a grid of that size lies on one of them.
+  bool hold(int i, int j, int width, int height) const {
+    return (west && i == 0) || (east && i == width - 1) || (south && j == 0) ||
+           (north && j == height - 1);
+  }
+};
+inline constexpr Sides all_sides{true, true, true, true};
+
 /// For each sample the number of the neighbour that takes its water, `flow_stops` or `flow_leaves`.
 Grid<std::uint8_t> d8_directions(const Grid<float>& height, Progress& progress);
 
 /// How many neighbours give their water to each sample.
-Grid<std::uint8_t> donor_counts(const Grid<std::uint8_t>& direction, Progress& progress);
+void donor_counts(const Grid<std::uint8_t>& direction, Grid<std::uint8_t>& count,
+                  Progress& progress);
 
 /// Samples, as places in `values()`, such that all that is upstream of one comes before it.
 class FlowOrder {
  public:
+  FlowOrder() = default;
   /// `direction` must hold no cycle.
   FlowOrder(const Grid<std::uint8_t>& direction, Progress& progress);
+
+  /// Finds the order anew, keeping memory. `amounts` holds what each sample adds of its own and
+  /// becomes the sum with all upstream; of an integer type, so that no order matters.
+  void build(const Grid<std::uint8_t>& direction, std::span<std::int32_t> amounts,
+             Progress& progress);
+  void build(const Grid<std::uint8_t>& direction, std::span<std::int64_t> amounts,
+             Progress& progress);
+  /// Samples that no band could do alone.
+  std::size_t trunk_size() const { return trunk_.size(); }
 
   /// Calls `visit(k)` once for each sample, after it was called for all its donors; on any thread.
   /// It should write nowhere but at k.
@@ -80,11 +106,16 @@ class FlowOrder {
   }
 
  private:
+  template <class Amount>
+  void build_with(const Grid<std::uint8_t>& direction, std::span<Amount> amounts,
+                  Progress& progress);
   int bands() const { return static_cast<int>(bands_.size()); }
   std::span<const int> band(int b) const { return bands_[static_cast<std::size_t>(b)]; }
 
   std::vector<std::vector<int>> bands_;
   std::vector<int> trunk_;
+  Grid<std::uint8_t> donors_;
+  Grid<std::uint8_t> waiting_;
 };
 
 /// Σ of `own(k)` over a sample and all upstream of it; the same bits for any number of threads.

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "../terrain/testing.hpp"
+#include "base/parallel.hpp"
+#include "erosion/drainage_depressions.hpp"
 #include "noise/fractal.hpp"
 #include "terrain/heightfield.hpp"
 
@@ -31,6 +33,12 @@ inline Heightfield rough(int width, int height, double cell, float relief = 100,
   fill_fractal(field.height, {.hurst = 0.8F}, {3.7, 1.2}, cell / feature, 5, progress);
   for (float& h : field.height.values()) h *= relief;
   return field;
+}
+
+/// The level to which each sample must be flooded before its water leaves.
+inline Grid<float> filled_level(const Grid<float>& height) {
+  Progress progress;
+  return fill_depressions(height, FillSurface::level, progress);
 }
 
 }  // namespace wold::testing_erosion

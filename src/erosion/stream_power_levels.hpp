@@ -1,0 +1,30 @@
+#pragma once
+// The grids, from coarse to fine, on which stream power runs.
+
+#include <vector>
+
+#include "base/progress.hpp"
+#include "erosion/stream_power_mesh.hpp"
+#include "terrain/heightfield.hpp"
+
+namespace wold {
+
+/// One grid of the ladder.
+struct StreamPowerLevel {
+  Heightfield ground;  ///< the input on this grid
+  StreamPowerMesh mesh = {};
+  double years = 0;  ///< that pass here
+  int steps = 0;
+};
+
+/// From the coarsest, with `base_cells` cells along the longer side, by halves to the input's own
+/// samples; of all years the first level takes most, each further half of the one before.
+std::vector<StreamPowerLevel> stream_power_levels(const Heightfield& input, double years,
+                                                  std::uint64_t seed, Progress& progress);
+
+/// A map of one grid over another that is at most a little coarser or any finer: bicubic, smoothed
+/// where it must be.
+Grid<float> regridded(const Grid<float>& map, const Heightfield& from, const Heightfield& to,
+                      Progress& progress);
+
+}  // namespace wold
