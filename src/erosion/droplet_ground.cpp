@@ -107,6 +107,39 @@ void spread(int width, int height, const std::vector<float>& kernel, const float
       rows_of_task);
 }
 
+/// Two rows of samples, or one and itself shifted, between which ground slides.
+struct BankRows {
+  const std::int32_t* height;
+  const std::int32_t* initial;
+  const float* softness;  ///< or null
+};
+
+/// What is too steep, and what is loose, in one direction.
+struct SlideRates {
+  float stable = 0;  ///< quanta
+  float creep = 0;   ///< share of a difference
+};
+
+/// Adds to `out` what samples of `here` get from those of `there`, in quanta.
+template <bool hardness>
+void slide(const BankRows& here, const BankRows& there, int count, const SlideRates& rates,
+           std::int32_t* out) {
+  constexpr float share = 0.1F;  // eight neighbours together take less than the surplus
+  for (int i = 0; i < count; ++i) {
+    const auto difference = static_cast<float>(there.height[i] - here.height[i]);
+    const auto at_first = static_cast<float>(there.initial[i] - here.initial[i]);
+    const float height = std::abs(difference);
+    const float allowed = std::max(rates.stable, std::abs(at_first));
+    float surplus = std::max(0.0F, height - allowed) * share;
+    if constexpr (hardness) surplus *= difference > 0 ? there.softness[i] : here.softness[i];
+    const std::int32_t laid =
+        difference > 0 ? there.height[i] - there.initial[i] : here.height[i] - here.initial[i];
+    const float loose = std::min(std::max(0.0F, static_cast<float>(laid)), height);
+    out[i] += static_cast<std::int32_t>(
+        std::copysign(std::max(surplus, loose * rates.creep), difference));
+  }
+}
+
 }  // namespace
 
 DropletGround::DropletGround(const Heightfield& input)
@@ -120,6 +153,7 @@ DropletGround::DropletGround(const Heightfield& input)
   quantum_ = std::ldexp(1.0, std::max(-20, exponent - 29));
   cells_.resize(input.height.size());
   before_.resize(cells_.size());
+  initial_.resize(cells_.size());
   spread_.resize(cells_.size());
   parallel_for(
       0, height_,
@@ -127,7 +161,7 @@ DropletGround::DropletGround(const Heightfield& input)
         const std::size_t first = static_cast<std::size_t>(j) * static_cast<std::size_t>(width_);
         const auto row = input.height.row(j);
         for (std::size_t i = 0; i < row.size(); ++i)
-          before_[first + i] = cells_[first + i].height = quantised(row[i]);
+          initial_[first + i] = before_[first + i] = cells_[first + i].height = quantised(row[i]);
       },
       rows_of_task);
 }
@@ -139,7 +173,6 @@ std::int32_t DropletGround::quantised(float height) const {
 void DropletGround::spread_changes(double radius_cells, const float* softness,
                                    const Progress& progress) {
   const std::vector<float> kernel = brush(radius_cells);
-  if (kernel.empty()) return;
   const auto first = [this](int j) { return static_cast<std::ptrdiff_t>(j) * width_; };
   spread(
       width_, height_, kernel, softness, spread_, progress,
@@ -153,6 +186,41 @@ void DropletGround::spread_changes(double radius_cells, const float* softness,
         std::int32_t* before = before_.data() + first(j);
         for (int i = 0; i < width_; ++i) before[i] = cells[i].height = before[i] + change[i];
       });
+}
+
+void DropletGround::settle(double bank_slope, double creep, double cell, const float* softness,
+                           const Progress& progress) {
+  const SlideRates straight{static_cast<float>(bank_slope * cell / quantum_),
+                            static_cast<float>(std::min(creep, 0.1))};
+  const SlideRates diagonal{straight.stable * std::sqrt(2.0F), straight.creep};
+  const auto rows_at = [&](int j, int i) -> BankRows {
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(j) * width_ + i;
+    return {before_.data() + first, initial_.data() + first,
+            softness == nullptr ? nullptr : softness + first};
+  };
+  const auto work = softness == nullptr ? slide<false> : slide<true>;
+  parallel_for(
+      0, height_,
+      [&](int j) {
+        std::int32_t* out = spread_.data() + static_cast<std::ptrdiff_t>(j) * width_;
+        std::copy_n(before_.data() + static_cast<std::ptrdiff_t>(j) * width_, width_, out);
+        for (int other = std::max(0, j - 1); other <= std::min(height_ - 1, j + 1); ++other) {
+          const SlideRates& side = other == j ? straight : diagonal;
+          if (other != j) work(rows_at(j, 0), rows_at(other, 0), width_, straight, out);
+          work(rows_at(j, 0), rows_at(other, 1), width_ - 1, side, out);
+          work(rows_at(j, 1), rows_at(other, 0), width_ - 1, side, out + 1);
+        }
+        progress.check();
+      },
+      rows_of_task);
+  parallel_for(
+      0, height_,
+      [&](int j) {
+        const std::size_t first = static_cast<std::size_t>(j) * static_cast<std::size_t>(width_);
+        for (std::size_t k = first; k < first + static_cast<std::size_t>(width_); ++k)
+          before_[k] = cells_[k].height = spread_[k];
+      },
+      rows_of_task);
 }
 
 Grid<float> DropletGround::eroded(const Heightfield& input) const {

@@ -25,6 +25,13 @@ class DropletGround {
   /// `softness`, if not null: erosion is spread to other samples only as far as they let it.
   void spread_changes(double radius_cells, const float* softness, const Progress& progress);
 
+  /// Lets banks slide that drops have cut: between two samples that lie `bank_slope` (rise over
+  /// run) or more apart, and further than at first, a tenth of what is too much moves down; and
+  /// loose sediment creep: of what was laid down since the beginning, a share `creep`, at most 0.1,
+  /// of the difference moves down to each of eight neighbours.
+  void settle(double bank_slope, double creep, double cell, const float* softness,
+              const Progress& progress);
+
   /// input + change, m.
   Grid<float> eroded(const Heightfield& input) const;
   /// Taken up, m, spread as the changes were.
@@ -38,6 +45,7 @@ class DropletGround {
   double base_ = 0;
   double quantum_ = 1;
   std::vector<DropletCell> cells_;
+  std::vector<std::int32_t> initial_;
   std::vector<std::int32_t> before_;  ///< heights at the last spreading
   std::vector<std::int32_t> spread_;  ///< changes, spread along rows
 };

@@ -168,7 +168,6 @@ void DropletWalk::gather_softness(int first, int count, DropletCorners& corners)
   }
 }
 
-/// Counts the drop at the sample nearest to where it was.
 void DropletWalk::record(int first, int count) {
   for (int k = 0; k < count; ++k) {
     const std::size_t lane = index(first + k);

@@ -27,15 +27,18 @@ struct DropletLanes {
   LaneArray<Vec3> color;
 };
 
+/// Four integers for each drop of a group, in an order that suits vectors.
+using DropletBlocks = std::array<std::int32_t, static_cast<std::size_t>(4 * droplet_group)>;
+
 /// The ground under a group: heights now, softness at the place before.
 struct DropletCorners {
-  alignas(64) std::array<std::int32_t, droplet_group> h00, h10, h01, h11;
+  alignas(64) DropletBlocks heights;
   alignas(64) std::array<float, droplet_group> soft00, soft10, soft01, soft11;
 };
 
 /// What a group does to the ground: for each drop, height and wear of two samples of each row.
 struct DropletChanges {
-  alignas(64) std::array<std::int32_t, static_cast<std::size_t>(4 * droplet_group)> low, high;
+  alignas(64) DropletBlocks low, high;
   alignas(64) std::array<std::int32_t, droplet_group> at;  ///< sample to the south-west
 };
 
@@ -54,30 +57,14 @@ class DropletWalk {
   DropletWalk(const DropletWorld& world, const DropletRates& rates, const DropletRegion& region,
               const std::vector<Drop>& drops, DropletTally& tally);
 
-  /// Reads the ground under the group from lane `first`.
-  void gather(int first, DropletCorners& corners) const {
-    const int count = std::min(droplet_group, active_ - first);
-    const DropletCell* cells = world_.cells;
-    const std::ptrdiff_t stride = world_.width;
-    for (int k = 0; k < count; ++k) {
-      const auto lane = static_cast<std::size_t>(first + k);
-      const auto slot = static_cast<std::size_t>(k);
-      const DropletCell* low = cells + lanes.at[lane];
-      const DropletCell* high = low + stride;
-      corners.h00[slot] = low[0].height;
-      corners.h10[slot] = low[1].height;
-      corners.h01[slot] = high[0].height;
-      corners.h11[slot] = high[1].height;
-    }
-    if (world_.softness != nullptr) gather_softness(first, count, corners);
-  }
-  /// What the step of a group leaves besides heights.
-  void follow(int first, int count, const DropletChanges& changes) {
-    if (world_.passes != nullptr) record(first, count);
-    if (world_.colors != nullptr) carry_colors(first, count, changes);
-  }
   /// Ends the lanes of a group whose bits are set and fills them with waiting drops.
   void end_lanes(int first, std::uint32_t ended);
+
+  void gather_softness(int first, int count, DropletCorners& corners) const;
+  /// Counts the drops of a group at the samples nearest to where they are.
+  void record(int first, int count);
+  /// Moves the colours of what a group's drops took up or laid down. `changes` by lanes.
+  void carry_colors(int first, int count, const DropletChanges& changes);
 
   int active() const { return active_; }
   const DropletWorld& world() const { return world_; }
@@ -92,9 +79,6 @@ class DropletWalk {
   void leave(std::size_t lane);
   void move_lane(std::size_t to, std::size_t from);
   std::int32_t height_at(std::size_t lane) const;
-  void gather_softness(int first, int count, DropletCorners& corners) const;
-  void record(int first, int count);
-  void carry_colors(int first, int count, const DropletChanges& changes);
 
   const DropletWorld& world_;
   const DropletRegion& region_;

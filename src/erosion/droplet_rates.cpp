@@ -13,6 +13,7 @@ DropletRates droplet_rates(const Droplets& p, double cell, double quantum) {
   r.steps = 1 + std::max(1.0F, std::round(p.distance / length));  // the first looks around
   r.keep = p.inertia > 0 ? std::exp(-length / p.inertia) : 0;
   r.turn = (1 - r.keep) * q / length;
+  r.scatter = std::tan(radians(p.scatter));
   r.capacity = p.capacity / (length * length * (r.momentum ? q : length));
   r.least_fall = p.min_slope * length / q;
   r.erosion = -std::expm1(-p.erosion * length);

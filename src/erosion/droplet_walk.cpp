@@ -30,8 +30,59 @@ HWY_INLINE F number(float x) {
 HWY_INLINE F real(I x) {
   return hn::ConvertTo(Floats(), x);
 }
-HWY_INLINE I truncated(F x) {
-  return hn::ConvertTo(Ints(), x);
+/// The nearest integer of numbers below 2^22: what they add to 1.5 · 2^23 has no fraction.
+constexpr float no_fraction = 0x1.8p23F;
+HWY_INLINE I rounded(F x) {
+  const Ints i;
+  const F sum = hn::Add(x, number(no_fraction));
+  return hn::Sub(hn::BitCast(i, sum), hn::BitCast(i, number(no_fraction)));
+}
+constexpr float largest_rounded = 0x1.fp21F;
+
+// Four integers per drop lie together in blocks of 16 bytes, where drop 4 b + j of a vector has
+// block b of the vector's j-th part: so that they are sorted into lanes, and back, within blocks.
+
+/// Where the block of a drop of the group begins.
+constexpr std::size_t slot_of(std::size_t drop) {
+  constexpr std::size_t lanes = HWY_LANES(float) < droplet_group ? HWY_LANES(float) : droplet_group;
+  return 4 * (drop / lanes * lanes) + drop % 4 * lanes + drop % lanes / 4 * 4;
+}
+
+struct Four {
+  I a, b, c, d;
+};
+
+/// Both ways, as a transposition is.
+HWY_INLINE Four transposed(const Four& v) {
+  const Ints i;
+  const hn::Repartition<std::int64_t, Ints> pairs;
+  const auto low_ab = hn::BitCast(pairs, hn::InterleaveLower(i, v.a, v.b));
+  const auto low_cd = hn::BitCast(pairs, hn::InterleaveLower(i, v.c, v.d));
+  const auto high_ab = hn::BitCast(pairs, hn::InterleaveUpper(i, v.a, v.b));
+  const auto high_cd = hn::BitCast(pairs, hn::InterleaveUpper(i, v.c, v.d));
+  return {hn::BitCast(i, hn::InterleaveLower(pairs, low_ab, low_cd)),
+          hn::BitCast(i, hn::InterleaveUpper(pairs, low_ab, low_cd)),
+          hn::BitCast(i, hn::InterleaveLower(pairs, high_ab, high_cd)),
+          hn::BitCast(i, hn::InterleaveUpper(pairs, high_ab, high_cd))};
+}
+
+HWY_INLINE Four load_blocks(const DropletBlocks& blocks, int k) {
+  const Ints i;
+  const std::int32_t* part = &blocks[static_cast<std::size_t>(4 * k)];
+  const std::size_t n = hn::Lanes(i);
+  return transposed({hn::Load(i, part), hn::Load(i, part + n), hn::Load(i, part + 2 * n),
+                     hn::Load(i, part + 3 * n)});
+}
+
+HWY_INLINE void store_blocks(const Four& values, DropletBlocks& blocks, int k) {
+  const Ints i;
+  const Four v = transposed(values);
+  std::int32_t* part = &blocks[static_cast<std::size_t>(4 * k)];
+  const std::size_t n = hn::Lanes(i);
+  hn::Store(v.a, i, part);
+  hn::Store(v.b, i, part + n);
+  hn::Store(v.c, i, part + 2 * n);
+  hn::Store(v.d, i, part + 3 * n);
 }
 
 /// The ground at a place between four samples.
@@ -41,18 +92,14 @@ struct Ground {
 };
 
 HWY_INLINE Ground ground_at(const DropletCorners& corners, int k, F fx, F fy) {
-  const Ints i;
-  const I h00 = hn::Load(i, &corners.h00[k]);
-  const I h10 = hn::Load(i, &corners.h10[k]);
-  const I h01 = hn::Load(i, &corners.h01[k]);
-  const I h11 = hn::Load(i, &corners.h11[k]);
-  const F a = real(hn::Sub(h10, h00));
-  const F c = real(hn::Sub(h01, h00));
-  const F twist = hn::Sub(real(hn::Sub(h11, h01)), a);
+  const Four h = load_blocks(corners.heights, k);
+  const F a = real(hn::Sub(h.b, h.a));
+  const F c = real(hn::Sub(h.c, h.a));
+  const F twist = hn::Sub(real(hn::Sub(h.d, h.c)), a);
   Ground g;
   g.gx = hn::MulAdd(fy, twist, a);
   g.gy = hn::MulAdd(fx, twist, c);
-  g.height = hn::Add(h00, hn::NearestInt(hn::MulAdd(fx, g.gx, hn::Mul(fy, c))));
+  g.height = hn::Add(h.a, hn::NearestInt(hn::MulAdd(fx, g.gx, hn::Mul(fy, c))));
   return g;
 }
 
@@ -69,7 +116,8 @@ HWY_INLINE F exchange(const DropletRates& r, F fall, F came_down, F sediment, F 
   const F laid = hn::Min(hn::Mul(surplus, number(r.deposition)), hn::Max(came_down, least));
   const F taken = hn::Max(hn::Mul(surplus, number(r.erosion)), hn::Neg(fall));
   const F downhill = hn::IfThenElse(hn::Gt(surplus, zero), laid, taken);
-  return hn::IfThenElse(hn::Lt(fall, zero), uphill, downhill);
+  const F amount = hn::IfThenElse(hn::Lt(fall, zero), uphill, downhill);
+  return hn::Max(hn::Min(amount, number(largest_rounded)), number(-largest_rounded));
 }
 
 /// Share of what is spread bilinearly at fraction f that is found when sampled d further.
@@ -82,14 +130,9 @@ HWY_INLINE F overlap(F f, F d) {
   return hn::MulAdd(f, hn::Sub(high, low), low);
 }
 
-struct Corner4 {
-  I c00, c10, c01, c11;
-};
-
-/// Splits an amount over the four samples around the place before; what truncation leaves stays
-/// with the drop.
-HWY_INLINE Corner4 split(F amount, F fx, F fy, const DropletCorners& corners, int k,
-                         bool hardness) {
+/// Splits an amount over the four samples around the place before, south-west first. Their sum,
+/// truncated, is what the drop loses: never more than it has.
+HWY_INLINE Four split(F amount, F fx, F fy, const DropletCorners& corners, int k, bool hardness) {
   const F y1 = hn::Mul(amount, fy);
   const F y0 = hn::Sub(amount, y1);
   F c10 = hn::Mul(y0, fx);
@@ -107,15 +150,15 @@ HWY_INLINE Corner4 split(F amount, F fx, F fy, const DropletCorners& corners, in
     c01 = soften(c01, corners.soft01.data());
     c11 = soften(c11, corners.soft11.data());
   }
-  return {truncated(c00), truncated(c10), truncated(c01), truncated(c11)};
+  return {rounded(hn::Trunc(c00)), rounded(hn::Trunc(c10)), rounded(hn::Trunc(c01)),
+          rounded(hn::Trunc(c11))};
 }
 
-HWY_INLINE void store_changes(const Corner4& c, DropletChanges& changes, int k) {
-  const Ints i;
-  const I zero = hn::Zero(i);
+HWY_INLINE void store_changes(const Four& c, DropletChanges& changes, int k) {
+  const I zero = hn::Zero(Ints());
   const auto wear = [&](I change) { return hn::Max(zero, hn::Sub(zero, change)); };
-  hn::StoreInterleaved4(c.c00, wear(c.c00), c.c10, wear(c.c10), i, &changes.low[4 * k]);
-  hn::StoreInterleaved4(c.c01, wear(c.c01), c.c11, wear(c.c11), i, &changes.high[4 * k]);
+  store_blocks({c.a, wear(c.a), c.b, wear(c.b)}, changes.low, k);
+  store_blocks({c.c, wear(c.c), c.d, wear(c.d)}, changes.high, k);
 }
 
 struct Motion {
@@ -161,6 +204,24 @@ HWY_INLINE Motion accelerate(const DropletRates& r, const Ground& g, F dx, F dy,
           hn::Min(hn::Mul(norm2, number(r.drag)), number(r.highest_v2))};
 }
 
+/// Turns the direction by a random angle that belongs to the place: else drops would keep to the
+/// rows and columns of samples, between which a ridge two samples wide feels flat.
+HWY_INLINE void scatter(const DropletRates& r, F x, F y, Motion& m) {
+  const Ints i;
+  const auto product = [&](I v, std::uint32_t by) {
+    return hn::Mul(v, hn::Set(i, static_cast<std::int32_t>(by)));
+  };
+  I bits =
+      hn::Xor(product(hn::BitCast(i, x), 0x9e3779b1U), product(hn::BitCast(i, y), 0x85ebca77U));
+  bits = product(hn::Xor(bits, hn::ShiftRight<15>(bits)), 0xc2b2ae3dU);
+  const F n = hn::Mul(real(hn::ShiftRight<8>(bits)), number(r.scatter * 0x1p-23F));  // a tangent
+  const F n2 = hn::Mul(n, n);
+  const F scale = hn::MulAdd(n2, hn::MulAdd(n2, number(0.375F), number(-0.5F)), number(1));
+  const F dx = hn::Mul(hn::NegMulAdd(n, m.dy, m.dx), scale);
+  m.dy = hn::Mul(hn::MulAdd(n, m.dx, m.dy), scale);
+  m.dx = dx;
+}
+
 HWY_INLINE std::uint32_t bits_of(hn::Mask<Floats> mask) {
   std::array<std::uint8_t, 8> bytes{};
   hn::StoreMaskBits(Floats(), mask, bytes.data());
@@ -192,19 +253,19 @@ HWY_INLINE std::uint32_t step_vector(DropletLanes& l, int lane, const DropletCor
   const I fall = hn::Sub(before, g.height);
   const F amount = exchange(r, real(fall), real(hn::Load(i, &l.came_down[lane])), real(sediment),
                             hn::Sqrt(v2), water);
-  const Corner4 c = split(amount, from_x, from_y, corners, k, step.hardness);
+  const Four c = split(amount, from_x, from_y, corners, k, step.hardness);
   store_changes(c, changes, k);
-  const I change = hn::Add(hn::Add(c.c00, c.c10), hn::Add(c.c01, c.c11));
+  const I change = hn::Add(hn::Add(c.a, c.b), hn::Add(c.c, c.d));
   const I carried = hn::Sub(sediment, change);
   hn::Store(carried, i, &l.sediment[lane]);
   const F found = hn::Mul(overlap(from_x, dx), overlap(from_y, dy));
-  hn::Store(hn::Add(g.height, hn::NearestInt(hn::Mul(real(change), found))), i, &l.height[lane]);
+  hn::Store(hn::Add(g.height, rounded(hn::Mul(real(change), found))), i, &l.height[lane]);
   const I zero = hn::Zero(i);
   hn::Store(hn::Max(zero, hn::Add(fall, hn::Min(change, zero))), i, &l.came_down[lane]);
 
   const auto first = hn::Eq(left, number(r.steps));
-  const Motion m =
-      r.momentum ? accelerate(r, g, dx, dy, v2) : bend(r, g, dx, dy, v2, real(fall), first);
+  Motion m = r.momentum ? accelerate(r, g, dx, dy, v2) : bend(r, g, dx, dy, v2, real(fall), first);
+  scatter(r, x, y, m);
   hn::Store(m.dx, f, &l.dx[lane]);
   hn::Store(m.dy, f, &l.dy[lane]);
   hn::Store(m.v2, f, &l.v2[lane]);
@@ -222,7 +283,8 @@ HWY_INLINE std::uint32_t step_vector(DropletLanes& l, int lane, const DropletCor
       hn::Min(hn::Max(hn::Add(y, m.dy), number(step.wall_bottom)), number(step.wall_top));
   hn::Store(to_x, f, &l.x[lane]);
   hn::Store(to_y, f, &l.y[lane]);
-  const I at = hn::Add(hn::Mul(truncated(to_y), hn::Set(i, step.stride)), truncated(to_x));
+  const I at =
+      hn::Add(hn::Mul(rounded(hn::Floor(to_y)), hn::Set(i, step.stride)), rounded(hn::Floor(to_x)));
   hn::Store(hn::Add(at, hn::Set(i, step.first)), i, &l.at[lane]);
 
   const F none = hn::Zero(f);
@@ -244,14 +306,54 @@ std::uint32_t step_group(DropletLanes& lanes, int first, const DropletCorners& c
   return ended;
 }
 
-void apply_changes(const DropletWorld& world, int count, const DropletChanges& changes) {
-  const hn::FixedTag<std::int32_t, 4> pair;
-  for (int k = 0; k < count; ++k) {
-    auto* low = reinterpret_cast<std::int32_t*>(world.cells + changes.at[k]);
-    auto* high = reinterpret_cast<std::int32_t*>(world.cells + changes.at[k] + world.width);
-    hn::StoreU(hn::Add(hn::LoadU(pair, low), hn::Load(pair, &changes.low[4 * k])), pair, low);
-    hn::StoreU(hn::Add(hn::LoadU(pair, high), hn::Load(pair, &changes.high[4 * k])), pair, high);
+using Block = hn::FixedTag<std::int32_t, 4>;
+
+/// Calls `work(k, slot)` for each drop of a group.
+template <class Work>
+HWY_INLINE void for_drops(int count, const Work& work) {
+  if (count == droplet_group) {
+    for (std::size_t k = 0; k < droplet_group; ++k) work(k, slot_of(k));
+  } else {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) work(k, slot_of(k));
   }
+}
+
+/// Reads the ground under the group from lane `first`.
+void gather(const DropletWalk& walk, int first, DropletCorners& corners) {
+  const Block block;
+  const DropletCell* cells = walk.world().cells;
+  const std::ptrdiff_t stride = walk.world().width;
+  const std::int32_t* at = &walk.lanes.at[static_cast<std::size_t>(first)];
+  const int count = std::min(droplet_group, walk.active() - first);
+  for_drops(count, [&](std::size_t k, std::size_t slot) HWY_ATTR {
+    const auto* low = reinterpret_cast<const std::int32_t*>(cells + at[k]);
+    const auto* high = reinterpret_cast<const std::int32_t*>(cells + at[k] + stride);
+    const auto heights = hn::ConcatEven(block, hn::LoadU(block, high), hn::LoadU(block, low));
+    hn::Store(heights, block, &corners.heights[slot]);
+  });
+  if (walk.step().hardness) walk.gather_softness(first, count, corners);
+}
+
+void apply_changes(const DropletWorld& world, int count, const DropletChanges& changes) {
+  const Block block;
+  const std::ptrdiff_t stride = world.width;
+  for_drops(count, [&](std::size_t k, std::size_t slot) HWY_ATTR {
+    auto* low = reinterpret_cast<std::int32_t*>(world.cells + changes.at[k]);
+    auto* high = reinterpret_cast<std::int32_t*>(world.cells + changes.at[k] + stride);
+    hn::StoreU(hn::Add(hn::LoadU(block, low), hn::Load(block, &changes.low[slot])), block, low);
+    hn::StoreU(hn::Add(hn::LoadU(block, high), hn::Load(block, &changes.high[slot])), block, high);
+  });
+}
+
+/// In the order of lanes, for what is done to single drops.
+DropletChanges sorted(const DropletChanges& changes) {
+  DropletChanges out = changes;
+  for (std::size_t k = 0; k < droplet_group; ++k)
+    for (std::size_t n = 0; n < 4; ++n) {
+      out.low[4 * k + n] = changes.low[slot_of(k) + n];
+      out.high[4 * k + n] = changes.high[slot_of(k) + n];
+    }
+  return out;
 }
 
 void walk_lanes(DropletWalk& walk, DropletTally& tally, const Progress& progress) {
@@ -260,16 +362,17 @@ void walk_lanes(DropletWalk& walk, DropletTally& tally, const Progress& progress
   while (walk.active() > 0) {
     progress.check();
     tally.steps += walk.active();
-    walk.gather(0, corners[0]);
+    gather(walk, 0, corners[0]);
     int turn = 0;
     for (int first = 0; first < walk.active(); first += droplet_group) {
       const int count = std::min(droplet_group, walk.active() - first);
       const DropletCorners& here = corners[turn];
       turn ^= 1;
-      if (first + droplet_group < walk.active()) walk.gather(first + droplet_group, corners[turn]);
+      if (first + droplet_group < walk.active()) gather(walk, first + droplet_group, corners[turn]);
       std::uint32_t ended = step_group(walk.lanes, first, here, changes, walk.step());
       apply_changes(walk.world(), count, changes);
-      walk.follow(first, count, changes);
+      if (walk.world().passes != nullptr) walk.record(first, count);
+      if (walk.world().colors != nullptr) walk.carry_colors(first, count, sorted(changes));
       ended &= (std::uint32_t{1} << static_cast<unsigned>(count)) - 1U;
       if (ended != 0) walk.end_lanes(first, ended);
     }

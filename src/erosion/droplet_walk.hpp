@@ -21,6 +21,7 @@ struct DropletRates {
   float steps = 0;         ///< in a life
   float keep = 0;          ///< of the direction, e^(-L/ℓ)
   float turn = 0;          ///< (1 - keep) per quantum of height over a cell
+  float scatter = 0;       ///< tangent of the largest random turn
   float capacity = 0;      ///< per quantum of fall and m/s (momentum: per m/s)
   float least_fall = 0;    ///< quanta per step
   float erosion = 0;       ///< of what is missing, per step

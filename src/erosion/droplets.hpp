@@ -50,9 +50,10 @@ struct Droplets {
   float rain = 0.15F;           ///< drops per m²
   float distance = 1200;        ///< m
   float inertia = 3;            ///< m
-  float capacity = 2;           ///< m³ of a drop at slope 1 and 1 m/s
+  float scatter = 15;           ///< degrees
+  float capacity = 6;           ///< m³ of a drop at slope 1 and 1 m/s
   float min_slope = 0.01F;      ///< of the capacity
-  float erosion = 0.01F;        ///< 1/m
+  float erosion = 0.005F;       ///< 1/m
   float deposition = 0.02F;     ///< 1/m
   float evaporation = 0.0025F;  ///< 1/m
   float gravity = 9.81F;        ///< m/s²
@@ -60,6 +61,8 @@ struct Droplets {
   float max_speed = 20;         ///< m/s
   float max_drop = 1000;        ///< m
   float radius = 8;             ///< m
+  float bank_slope = 45;        ///< degrees
+  float creep = 12;             ///< m
   std::string hardness = {};
   bool hardness_invert = false;
   std::string rain_map = {};

@@ -69,6 +69,7 @@ struct Walk {
 
 Droplets frictionless() {
   Droplets p;
+  p.scatter = 0;
   p.drag = 0;
   p.evaporation = 0;
   p.max_speed = 1000;

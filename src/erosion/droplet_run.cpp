@@ -1,0 +1,153 @@
+#include "erosion/droplet_run.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "erosion/droplet_rates.hpp"
+#include "erosion/ground.hpp"
+#include "terrain/import.hpp"
+
+namespace wold {
+
+namespace {
+
+constexpr int showers_of_rain = 64;
+constexpr int recorded_showers = 16;    // the last: on ground that is nearly done
+constexpr double drops_of_round = 128;  // in a tile at least, before changes are spread
+
+/// Share of the erosion that each sample lets happen.
+Grid<float> softness_of(const Heightfield& input, const Droplets& p,
+                        const TerrainContext& context) {
+  Grid<float> softness = factor_map(input, p.hardness, 0, context);
+  if (!p.hardness_invert)
+    for (float& s : softness.values()) s = 1 - s;
+  return softness;
+}
+
+DropletColors colors_of(const Heightfield& input, const Droplets& p, double quantum,
+                        const TerrainContext& context) {
+  const std::filesystem::path path = context.folder / p.color.path;
+  DropletColors colors;
+  colors.beneath.resize(input.height.size());
+  const char* const channels[] = {"R", "G", "B"};
+  for (int c = 0; c < 3; ++c) {
+    const Grid<float> values =
+        picture_over(path, channels[c], context.domain, input, context.progress);
+    for (std::size_t k = 0; k < values.size(); ++k) colors.beneath[k][c] = values.values()[k];
+  }
+  colors.skin = colors.beneath;
+  colors.depth = static_cast<float>(static_cast<double>(p.color_depth) / quantum);
+  return colors;
+}
+
+void add_color_maps(const DropletColors& colors, int width, int height, TerrainResult& result) {
+  const char* const names[] = {"color.red", "color.green", "color.blue"};
+  for (int c = 0; c < 3; ++c) {
+    Grid<float> map(width, height);
+    for (std::size_t k = 0; k < map.size(); ++k) map.values()[k] = colors.skin[k][c];
+    result.maps.emplace(names[c], std::move(map));
+  }
+}
+
+}  // namespace
+
+DropletRun::DropletRun(const Heightfield& input, const Droplets& parameters,
+                       const TerrainContext& context)
+    : input_(input),
+      parameters_(parameters),
+      context_(context),
+      ground_(input),
+      rates_(droplet_rates(parameters, input.cell, ground_.quantum())),
+      radius_cells_(static_cast<double>(parameters.radius) / input.cell) {
+  world_.width = input.height.width();
+  world_.height = input.height.height();
+  world_.cells = ground_.cells();
+  world_.closed_border = parameters.closed_border;
+  if (!parameters.hardness.empty()) {
+    softness_ = softness_of(input, parameters, context);
+    world_.softness = softness_.values().data();
+  }
+  if (!parameters.rain_map.empty())
+    rain_share_ = factor_map(input, parameters.rain_map, 1, context);
+  if (!parameters.color.empty()) {
+    colors_ = colors_of(input, parameters, ground_.quantum(), context);
+    world_.colors = &colors_;
+  }
+}
+
+void DropletRun::rain() {
+  if (!(parameters_.rain > 0)) return;
+  const double area = input_.size().x * input_.size().y;
+  const double rain = static_cast<double>(parameters_.rain);
+  context_.progress.begin("droplets", rain * area, "drops");
+  const double per_cell = rain / showers_of_rain * input_.cell * input_.cell;
+  const int side = droplet_tile_side(per_cell);
+  DropletTiles tiles(input_, side, rain_share_.empty() ? nullptr : &rain_share_);
+  const auto at_once = static_cast<int>(std::bit_floor(
+      static_cast<unsigned>(std::clamp(drops_of_round / (per_cell * side * side), 1.0, 8.0))));
+  // Eight neighbours spread a share c each by the variance 6 c cell² along each axis.
+  const double creep_cells = static_cast<double>(parameters_.creep) / input_.cell;
+  creep_ = creep_cells * creep_cells * at_once / (6 * showers_of_rain);
+  const std::vector<DropletShower> showers = droplet_showers(rain, showers_of_rain, context_.seed);
+  for (int k = 0; k < showers_of_rain; k += at_once) {
+    if (k == showers_of_rain - recorded_showers) start_record();
+    for (int n = k; n < k + at_once; ++n)
+      tiles.rain(showers[static_cast<std::size_t>(n)], rates_.steps);
+    round(tiles, k);
+  }
+  for (int k = 0; !tiles.empty(); ++k) round(tiles, k);
+  removed_ = ground_.quantum() * static_cast<double>(tiles.removed);
+  steps_ = tiles.steps;
+  context_.progress.end();
+}
+
+void DropletRun::round(DropletTiles& tiles, int k) {
+  tiles.move(world_, rates_, k, context_.progress);
+  ground_.spread_changes(radius_cells_, world_.softness, context_.progress);
+  ground_.settle(std::tan(radians(static_cast<double>(parameters_.bank_slope))), creep_,
+                 input_.cell, world_.softness, context_.progress);
+}
+
+void DropletRun::start_record() {
+  record_.rain = static_cast<double>(parameters_.rain) * recorded_showers / showers_of_rain;
+  record_.passes.resize(input_.height.size());
+  record_.speed.resize(input_.height.size());
+  world_.passes = record_.passes.data();
+  world_.speed = record_.speed.data();
+}
+
+TerrainResult DropletRun::result() {
+  const int width = world_.width;
+  const int height = world_.height;
+  record_.passes.resize(input_.height.size());
+  record_.speed.resize(input_.height.size());
+  TerrainResult result{{ground_.eroded(input_), input_.origin, input_.cell}, {}, {}};
+  Grid<float> wear = ground_.wear(radius_cells_, world_.softness, context_.progress);
+  Grid<float> sediment(width, height);
+  for (std::size_t k = 0; k < sediment.size(); ++k) {
+    const float change = result.field.height.values()[k] - input_.height.values()[k];
+    sediment.values()[k] = std::max(0.0F, change + wear.values()[k]);
+    wear.values()[k] = sediment.values()[k] - change;
+  }
+  Grid<float> discharge = discharge_map(record_, width, height);
+  result.maps.emplace("flow", flow_map(discharge, input_.cell, parameters_.contrast));
+  result.maps.emplace("discharge", std::move(discharge));
+  result.maps.emplace("velocity", velocity_map(record_, width, height));
+  result.maps.emplace("wear", std::move(wear));
+  result.maps.emplace("sediment", std::move(sediment));
+  if (world_.colors != nullptr) add_color_maps(colors_, width, height, result);
+  result.balances.push_back(balance(result.field));
+  return result;
+}
+
+Balance DropletRun::balance(const Heightfield& output) const {
+  const double cell_area = input_.cell * input_.cell;
+  Balance ground{"ground", volume(input_.height, input_.cell)};
+  ground.removed = removed_ * cell_area;
+  ground.after = volume(output.height, input_.cell);
+  ground.moved = ground_.total_wear() * cell_area;
+  return ground;
+}
+
+}  // namespace wold
