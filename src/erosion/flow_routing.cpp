@@ -46,6 +46,21 @@ void directions_of_row(const Grid<float>& height, int j, std::span<int> directio
   }
 }
 
+/// Adds 1 where `from` is `towards`. In blocks, which bytes that may alias forbid otherwise.
+void count_donors(const std::uint8_t* from, std::uint8_t* out, std::uint8_t towards, int count) {
+  constexpr int block = 64;
+  int i = 0;
+  for (; i + block <= count; i += block) {
+    std::array<std::uint8_t, block> sum;
+    for (int k = 0; k < block; ++k)
+      sum[static_cast<std::size_t>(k)] =
+          static_cast<std::uint8_t>(out[i + k] + static_cast<std::uint8_t>(from[i + k] == towards));
+    std::copy(sum.begin(), sum.end(), out + i);
+  }
+  for (; i < count; ++i)
+    out[i] = static_cast<std::uint8_t>(out[i] + static_cast<std::uint8_t>(from[i] == towards));
+}
+
 /// What flows out of a band of rows.
 template <class Amount>
 struct Crossing {
@@ -129,11 +144,9 @@ void donor_counts(const Grid<std::uint8_t>& direction, Grid<std::uint8_t>& count
           const int y = j + flow_dy[static_cast<std::size_t>(d)];
           if (y < 0 || y >= direction.height()) continue;
           const int dx = flow_dx[static_cast<std::size_t>(d)];
-          const std::uint8_t* from = direction.row(y).data();
-          const auto towards_me = static_cast<std::uint8_t>(opposite_flow(d));
-          for (int i = std::max(0, -dx); i < std::min(w, w - dx); ++i)
-            out[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(
-                out[static_cast<std::size_t>(i)] + (from[i + dx] == towards_me ? 1 : 0));
+          const int first = std::max(0, -dx);
+          count_donors(direction.row(y).data() + first + dx, out.data() + first,
+                       static_cast<std::uint8_t>(opposite_flow(d)), std::min(w, w - dx) - first);
         }
         progress.check();
       },

@@ -1,14 +1,13 @@
 #include "erosion/flow_routing_pits.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <numeric>
 
 namespace wold {
 
 namespace {
 
-constexpr int unlabelled = -1;
+constexpr int pits_at_once = 64;
 
 std::size_t at(int k) {
   return static_cast<std::size_t>(k);
@@ -46,6 +45,23 @@ int chunks_of(int rows) {
   return (rows + rows_at_once - 1) / rows_at_once;
 }
 
+/// Calls `visit(i)` where a and b differ. In blocks, most of which are the same.
+template <class Visit>
+void each_difference(const int* a, const int* b, int first, int last, const Visit& visit) {
+  constexpr int block = 32;
+  for (; first < last; first += block) {
+    const int end = std::min(last, first + block);
+    int differs = 0;
+    if (end - first == block)
+      for (int k = 0; k < block; ++k) differs |= a[first + k] ^ b[first + k];
+    else
+      differs = 1;
+    if (differs == 0) continue;
+    for (int i = first; i < end; ++i)
+      if (a[i] != b[i]) visit(i);
+  }
+}
+
 }  // namespace
 
 std::vector<int> pits_of(const Grid<std::uint8_t>& direction, Progress& progress) {
@@ -64,40 +80,45 @@ std::vector<int> pits_of(const Grid<std::uint8_t>& direction, Progress& progress
   return concatenated(found);
 }
 
-// Threads may walk the same way at once; they write the same labels.
+// Basins of pits only, each upstream from its pit: where pits are few, little is visited.
 void PitRouter::label_basins(const Grid<std::uint8_t>& direction, const std::vector<int>& pits,
                              Progress& progress) {
+  donor_counts(direction, donors_, progress);
+  if (label_.width() == direction.width() && label_.height() == direction.height())
+    for (const std::vector<Sample>& samples : samples_)
+      for (const Sample& s : samples) label_.values()[at(s.k)] = 0;
+  else
+    label_ = Grid<int>(direction.width(), direction.height(), 0);
+  const int count = static_cast<int>(pits.size());
+  samples_.resize(at((count + pits_at_once - 1) / pits_at_once));
+  parallel_for(0, static_cast<int>(samples_.size()), [&](int c) {
+    samples_[at(c)].clear();
+    for (int p = c * pits_at_once; p < std::min(count, (c + 1) * pits_at_once); ++p) {
+      label_basin(direction, pits[at(p)], p + 1, samples_[at(c)]);
+      progress.check();
+    }
+  });
+}
+
+void PitRouter::label_basin(const Grid<std::uint8_t>& direction, int pit, int number,
+                            std::vector<Sample>& samples) {
   const int w = direction.width();
-  if (label_.width() != w || label_.height() != direction.height())
-    label_ = Grid<int>(w, direction.height());
-  const std::span<int> label = label_.values();
-  std::fill(label.begin(), label.end(), unlabelled);
-  for (std::size_t p = 0; p < pits.size(); ++p) label[at(pits[p])] = static_cast<int>(p) + 1;
-  const auto label_at = [&](int k) { return std::atomic_ref<int>(label[at(k)]); };
-  parallel_for(
-      0, direction.height(),
-      [&](int j) {
-        for (int start = j * w; start < (j + 1) * w; ++start) {
-          int k = start;
-          int found = unlabelled;
-          while ((found = label_at(k).load(std::memory_order_relaxed)) == unlabelled) {
-            const int d = direction.values()[at(k)];
-            if (d >= flow_stops) {
-              found = 0;
-              break;
-            }
-            k += flow_step(d, w);
-          }
-          for (int n = start; label_at(n).load(std::memory_order_relaxed) == unlabelled;) {
-            label_at(n).store(found, std::memory_order_relaxed);
-            const int d = direction.values()[at(n)];
-            if (d >= flow_stops) break;
-            n += flow_step(d, w);
-          }
-        }
-        progress.check();
-      },
-      16);
+  const int last_row = w * (direction.height() - 1);
+  const std::uint8_t* towards = direction.values().data();
+  std::size_t next = samples.size();
+  samples.push_back({pit, pit % w});
+  for (; next < samples.size(); ++next) {
+    const Sample s = samples[next];
+    label_.values()[at(s.k)] = number;
+    if (donors_.values()[at(s.k)] == 0) continue;
+    for (int d = 0; d < 8; ++d) {
+      const int i = s.i + flow_dx[at(d)];
+      const int dy = flow_dy[at(d)];
+      if (i < 0 || i >= w || (dy < 0 && s.k < w) || (dy > 0 && s.k >= last_row)) continue;
+      const int n = s.k + flow_step(d, w);
+      if (towards[n] == opposite_flow(d)) samples.push_back({n, i});
+    }
+  }
 }
 
 void PitRouter::find_passes(const Grid<float>& height, const Sides& open, Progress& progress) {
@@ -105,18 +126,17 @@ void PitRouter::find_passes(const Grid<float>& height, const Sides& open, Progre
   const int h = height.height();
   std::vector<std::vector<Pass>> found(at(chunks_of(h)));
   parallel_for(0, chunks_of(h), [&](int c) {
-    std::vector<Pass>& out = found[at(c)];
     for (int j = c * rows_at_once; j < std::min(h, (c + 1) * rows_at_once); ++j)
       for (int d = 0; d < 4; ++d) {
         if (j + flow_dy[at(d)] >= h) continue;
         const int dx = flow_dx[at(d)];
-        const int* label = label_.row(j).data();
-        const int* other = label_.row(j + flow_dy[at(d)]).data() + dx;
+        const int* here = label_.row(j).data();
+        const int* there = label_.row(j + flow_dy[at(d)]).data() + dx;
         const float* height_here = height.row(j).data();
         const float* height_there = height.row(j + flow_dy[at(d)]).data() + dx;
-        for (int i = std::max(0, -dx); i < std::min(w, w - dx); ++i)
-          if (label[i] != other[i])
-            out.push_back({std::max(height_here[i], height_there[i]), j * w + i, d});
+        each_difference(here, there, std::max(0, -dx), std::min(w, w - dx), [&](int i) {
+          found[at(c)].push_back({std::max(height_here[i], height_there[i]), j * w + i, d});
+        });
       }
     progress.check();
   });

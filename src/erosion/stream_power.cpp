@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/hash.hpp"
 #include "erosion/ground.hpp"
@@ -106,12 +107,14 @@ double work_of(const std::vector<StreamPowerLevel>& levels) {
 struct Outcome {
   Grid<float> height;
   Grid<float> area;
+  Grid<float> sediment;  ///< empty without deposition
 };
 
 Outcome run_levels(const std::vector<StreamPowerLevel>& levels, const std::vector<Factors>& factors,
                    const StreamPower& p, const TerrainContext& context) {
   const StreamPowerLaw law{.area_exponent = static_cast<double>(p.area_exponent),
                            .slope_exponent = static_cast<double>(p.slope_exponent),
+                           .deposition = static_cast<double>(p.deposition),
                            .diffusivity = static_cast<double>(p.diffusivity),
                            .open = sides_of(p.open)};
   Progress& progress = context.progress;
@@ -121,13 +124,18 @@ Outcome run_levels(const std::vector<StreamPowerLevel>& levels, const std::vecto
     const StreamPowerLevel& level = levels[l];
     const Grid<float> ground = level.mesh.shifted(level.ground, progress);
     out.height = ground;
-    if (l > 0) add_to(out.height, levels[l - 1].mesh.laid_over(change, level.mesh, progress));
+    const auto laid_over = [&](const Grid<float>& values) {
+      return levels[l - 1].mesh.laid_over(values, level.mesh, progress);
+    };
+    if (l > 0) add_to(out.height, laid_over(change));
     StreamPowerSolver solver(level.ground.cell, law,
                              ground_of(level.ground, factors[l], p, context.seed, progress),
                              level.mesh, random_bits(context.seed, 3, l), progress);
+    if (!out.sediment.empty()) solver.sediment() = laid_over(out.sediment);
     for (int s = 0; s < level.steps; ++s) solver.step(out.height, level.years / level.steps);
     change = difference(out.height, ground);
     out.area = solver.area();
+    out.sediment = solver.sediment();
   }
   return out;
 }
@@ -140,22 +148,26 @@ void add_maps(TerrainResult& result, const Heightfield& input, const Grid<float>
   result.maps["flow"] = map([&](int i, int j) { return area(i, j) / (area(i, j) + p.river_area); });
   const Grid<float>& uplift = result.maps["uplift"] =
       map([&](int i, int j) { return 1e-3F * p.uplift * p.years * uplift_factor(i, j); });
-  const auto missing = [&](int i, int j) {
-    return static_cast<float>(static_cast<double>(input.height(i, j)) +
-                              static_cast<double>(uplift(i, j)) -
-                              static_cast<double>(height(i, j)));
-  };
-  result.maps["wear"] = map([&](int i, int j) { return std::max(0.0F, missing(i, j)); });
-  result.maps["sediment"] = map([&](int i, int j) { return std::max(0.0F, -missing(i, j)); });
-  const double wear = volume(result.maps["wear"], input.cell);
-  const double sediment = volume(result.maps["sediment"], input.cell);
+  Grid<float>& sediment = result.maps["sediment"];
+  if (sediment.empty()) sediment = Grid<float>(height.width(), height.height(), 0);
+  for (float& s : sediment.values()) s = std::max(0.0F, s);
+  const Grid<double> gone = map_grid<double>(input, progress, [&](int i, int j) {
+    return static_cast<double>(input.height(i, j)) + static_cast<double>(uplift(i, j)) -
+           static_cast<double>(height(i, j));
+  });
+  result.maps["wear"] = map([&](int i, int j) {
+    return std::max(0.0F, static_cast<float>(gone(i, j)) + sediment(i, j));
+  });
+  const double cell_area = input.cell * input.cell;
   const double added = volume(uplift, input.cell);
+  const double removed =
+      cell_area * std::accumulate(gone.values().begin(), gone.values().end(), 0.0);
   result.balances = {{.quantity = "ground",
                       .before = volume(input.height, input.cell),
                       .added = added,
-                      .removed = wear - sediment,
+                      .removed = removed,
                       .after = volume(height, input.cell),
-                      .moved = added + wear + sediment}};
+                      .moved = added + volume(result.maps["wear"], input.cell)}};
 }
 
 }  // namespace
@@ -181,6 +193,8 @@ Description<StreamPower> describe(const StreamPower&) {
            "m: how erosion grows with upstream area; m/n is the concavity of rivers.")
       .add("slope_exponent", &StreamPower::slope_exponent, {.min = 0.2, .max = 4},
            "n: how erosion grows with slope.")
+      .add("deposition", &StreamPower::deposition, {.min = 0, .max = 10},
+           "G: how readily streams lay down what they carry: valley floors and fans; 0: never.")
       .add("diffusivity", &StreamPower::diffusivity, {.unit = "m²/yr", .min = 0, .max = 1000},
            "How fast hillslopes are rounded by creeping soil.")
       .add("talus", &StreamPower::talus, {.unit = "degrees", .min = 1, .max = 85},
@@ -208,6 +222,7 @@ TerrainResult stream_power(const Heightfield& input, const StreamPower& p,
   TerrainResult result;
   result.field = {std::move(out.height), input.origin, input.cell};
   result.maps["area"] = std::move(out.area);
+  result.maps["sediment"] = std::move(out.sediment);
   add_maps(result, input, finest.uplift, p, context.progress);
   context.progress.end();
   return result;

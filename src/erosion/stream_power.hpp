@@ -2,12 +2,13 @@
 // Mountains by uplift and running water: the stream-power law with uplift, hillslope diffusion and
 // a talus angle.
 //
-//   ∂h/∂t = U - K A^m S^n + κ ∇²h,  S at most tan(talus)
+//   ∂h/∂t = U - K A^m S^n + G q_s / A + κ ∇²h,  S at most tan(talus)
 //
 // h height (m), t time (years), U uplift (m/yr), A upstream area (m²), S slope along the water's
-// way, K erodibility (m^(1-2m)/yr), κ diffusivity of soil on hillslopes (m²/yr). Where uplift and
-// erosion balance, rivers have S = (U/K)^(1/n) A^(-m/n): concavity m/n. (Howard, "A detachment-
-// limited model of drainage basin evolution", 1994; Whipple and Tucker, 1999.)
+// way, K erodibility (m^(1-2m)/yr), κ diffusivity of soil on hillslopes (m²/yr), q_s flow
+// of sediment (m³/yr), G how readily it settles. Where uplift and
+// erosion balance, rivers have S = ((1 + G) U/K)^(1/n) A^(-m/n): concavity m/n. (Howard, "A
+// detachment- limited model of drainage basin evolution", 1994; Whipple and Tucker, 1999.)
 //
 // Water leaves over the open sides. A sample there that has no lower neighbour is an outlet: it
 // keeps its height, against which everything upstream settles.
@@ -21,9 +22,9 @@
 // Rock: erodibility and talus angle vary by `variation` as a fractal of the place with features of
 // `variation_size`, and with the map `hardness`.
 //
-// Maps: area (m²), flow (A / (A + river_area)), wear (input + uplift - output where positive, m),
-// sediment (the same where negative: what diffusion laid down, m), uplift (m).
-// What streams carry leaves the map: removed = Σ wear - Σ sediment.
+// Maps: area (m²), flow (A / (A + river_area)), sediment (what streams laid down and still lies,
+// m), wear (rock that is gone: input + uplift - output + sediment, m), uplift (m). What streams
+// carry leaves the map: removed = Σ (input + uplift - output).
 
 #include "terrain/operator.hpp"
 
@@ -40,7 +41,8 @@ struct StreamPower {
   std::string rain = {};        ///< 0 to 1, relative to the rain that K is for
   float area_exponent = 0.45F;  ///< m
   float slope_exponent = 1;     ///< n
-  float diffusivity = 0.001F;   ///< κ, m²/yr
+  float deposition = 0.5F;      ///< G
+  float diffusivity = 0.002F;   ///< κ, m²/yr
   float talus = 35;             ///< degrees
   float variation = 0.4F;       ///< of rock, 0 to 1
   float variation_size = 400;   ///< m

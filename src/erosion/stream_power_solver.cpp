@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/hash.hpp"
 
@@ -11,41 +12,10 @@ namespace {
 
 constexpr int tabled_counts = 8192;
 constexpr double rain_unit = 256;
+constexpr float rests_up_to = 0.7F;  // of the talus slope; sediment does not rest on steeper ground
 
 constexpr std::size_t at(int k) {
   return static_cast<std::size_t>(k);
-}
-
-/// 32 random bits of a sample and a step: an integer hash cheap in vectors (the mixer of
-/// "lowbias32", Wellons 2018).
-std::uint32_t step_bits(std::uint32_t key, int i, int j) {
-  std::uint32_t x = key + static_cast<std::uint32_t>(i) * 0x9e3779b9U +
-                    static_cast<std::uint32_t>(j) * 0x85ebca6bU;
-  x ^= x >> 16U;
-  x *= 0x7feb352dU;
-  x ^= x >> 15U;
-  x *= 0x846ca68bU;
-  return x ^ (x >> 16U);
-}
-
-/// A random factor of a neighbour in 1 ± spread / 2, from 4 of the bits.
-float chance(std::uint32_t bits, int d, float spread) {
-  const auto part = static_cast<int>((bits >> (4U * static_cast<unsigned>(d))) & 15U);
-  return (1 - spread / 2) + static_cast<float>(part) * (spread / 15);
-}
-
-/// Weights of falls to the neighbours for the slope (Sobel), and directions to them.
-constexpr float sobel_x(int d) {
-  return static_cast<float>(flow_dx[at(d)] * (flow_dy[at(d)] == 0 ? 2 : 1));
-}
-constexpr float sobel_y(int d) {
-  return static_cast<float>(flow_dy[at(d)] * (flow_dx[at(d)] == 0 ? 2 : 1));
-}
-constexpr float unit_x(int d) {
-  return static_cast<float>(flow_dx[at(d)] / flow_distance(d));
-}
-constexpr float unit_y(int d) {
-  return static_cast<float>(flow_dy[at(d)] / flow_distance(d));
 }
 
 /// The implicit step for n other than 1: x = h' - h'_r with x - x0 + f x^n = 0, from above.
@@ -72,7 +42,7 @@ StreamPowerSolver::StreamPowerSolver(double cell, const StreamPowerLaw& law,
       progress_(progress),
       seed_(seed),
       shifted_(mesh.is_real),
-      steepest_(ground_.talus),
+      cosine_(ground_.talus.width(), ground_.talus.height(), 1),
       direction_(ground_.uplift.width(), ground_.uplift.height()),
       powers_(tabled_counts) {
   if (shifted_)
@@ -81,74 +51,38 @@ StreamPowerSolver::StreamPowerSolver(double cell, const StreamPowerLaw& law,
     powers_[at(c)] = static_cast<float>(std::pow(c * cell * cell, law.area_exponent));
 }
 
-std::uint8_t StreamPowerSolver::direction_at(const Grid<float>& height, int i, int j) const {
-  const auto spread = static_cast<float>(law_.wandering);
+DirectionRow StreamPowerSolver::direction_row(const Grid<float>& height, int j) const {
+  const int w = height.width();
+  DirectionRow row{.height = height.row(j).data(),
+                   .width = w,
+                   .row = j,
+                   .key = step_key_,
+                   .wandering = static_cast<float>(law_.wandering)};
+  if (shifted_)
+    for (int d = 0; d < 4; ++d) {
+      row.nearness[at(d)] = nearness_[at(d)].row(j).data();
+      row.nearness[at(d + 4)] = row.nearness[at(d)] + flow_step(d + 4, w);
+    }
+  return row;
+}
+
+std::uint8_t StreamPowerSolver::border_direction(const Grid<float>& height, int i, int j) const {
+  const DirectionRow row = direction_row(height, j);
   float steepest = 0;
   std::uint8_t direction =
       law_.open.hold(i, j, height.width(), height.height()) ? flow_leaves : flow_stops;
-  const std::uint32_t bits = step_bits(step_key_, i, j);
   for (int d = 0; d < 8; ++d) {
     const int x = i + flow_dx[at(d)];
     const int y = j + flow_dy[at(d)];
     if (x < 0 || y < 0 || x >= height.width() || y >= height.height()) continue;
-    const float near = !shifted_ ? static_cast<float>(1 / flow_distance(d))
-                       : d < 4   ? nearness_[at(d)](i, j)
-                                 : nearness_[at(d - 4)](x, y);
-    const float slope = (height(i, j) - height(x, y)) * near * chance(bits, d, spread);
+    const float near = shifted_ ? row.nearness[at(d)][i] : static_cast<float>(1 / flow_distance(d));
+    const float slope = (height(i, j) - height(x, y)) * near * slope_chance(row, i, d);
     if (slope > steepest) {
       steepest = slope;
       direction = static_cast<std::uint8_t>(d);
     }
   }
   return direction;
-}
-
-template <bool shifted>
-void StreamPowerSolver::directions_of_row(const Grid<float>& height, int j) {
-  const int w = height.width();
-  std::array<const float*, 8> near{};
-  if (shifted)
-    for (int d = 0; d < 4; ++d) {
-      near[at(d)] = nearness_[at(d)].row(j).data();
-      near[at(d + 4)] = near[at(d)] + flow_step(d + 4, w);
-    }
-  const auto spread = static_cast<float>(law_.wandering);
-  const float* here = height.row(j).data();
-  std::uint8_t* out = direction_.row(j).data();
-  constexpr int chunk = 256;
-  std::array<int, chunk> best;
-  std::array<float, chunk> cosine;
-  for (int first = 1; first < w - 1; first += chunk) {
-    const int count = std::min(chunk, w - 1 - first);
-    for (int c = 0; c < count; ++c) {
-      const int i = first + c;
-      const std::uint32_t bits = step_bits(step_key_, i, j);
-      float steepest = 0;
-      int direction = flow_stops;
-      float fall_x = 0;
-      float fall_y = 0;
-      float along = 0;
-      for (int d = 0; d < 8; ++d) {
-        const float nearness = shifted ? near[at(d)][i] : static_cast<float>(1 / flow_distance(d));
-        const float fall = here[i] - here[i + flow_step(d, w)];
-        fall_x += fall * sobel_x(d);
-        fall_y += fall * sobel_y(d);
-        const float slope = fall * nearness * chance(bits, d, spread);
-        const bool steeper = slope > steepest;
-        direction = steeper ? d : direction;
-        steepest = steeper ? slope : steepest;
-      }
-      for (int d = 0; d < 8; ++d)
-        along = direction == d ? fall_x * unit_x(d) + fall_y * unit_y(d) : along;
-      best[at(c)] = direction;
-      const float length = std::sqrt(fall_x * fall_x + fall_y * fall_y + 1e-12F);
-      cosine[at(c)] = std::min(1.0F, std::max(0.7F, along / length));
-    }
-    for (int c = 0; c < count; ++c) out[first + c] = static_cast<std::uint8_t>(best[at(c)]);
-    float* steepest = &steepest_(0, j);
-    const float* talus = &ground_.talus(0, j);
-    for (int c = 0; c < count; ++c) steepest[first + c] = talus[first + c] * cosine[at(c)];
-  }
 }
 
 void StreamPowerSolver::find_directions(const Grid<float>& height) {
@@ -159,15 +93,13 @@ void StreamPowerSolver::find_directions(const Grid<float>& height) {
       [&](int j) {
         progress_.advance(w);
         if (j == 0 || j == h - 1) {
-          for (int i = 0; i < w; ++i) direction_(i, j) = direction_at(height, i, j);
+          for (int i = 0; i < w; ++i) direction_(i, j) = border_direction(height, i, j);
           return;
         }
-        direction_(0, j) = direction_at(height, 0, j);
-        direction_(w - 1, j) = direction_at(height, w - 1, j);
-        if (shifted_)
-          directions_of_row<true>(height, j);
-        else
-          directions_of_row<false>(height, j);
+        wold::find_directions(direction_row(height, j), direction_.row(j).data(),
+                              cosine_.row(j).data());
+        direction_(0, j) = border_direction(height, 0, j);
+        direction_(w - 1, j) = border_direction(height, w - 1, j);
       },
       8);
 }
@@ -192,8 +124,11 @@ void StreamPowerSolver::erode(Grid<float>& height, double years, const AreaPower
   float* h = height.values().data();
   const float* uplift = ground_.uplift.values().data();
   const float* erodibility = ground_.erodibility.values().data();
-  const float* talus = steepest_.values().data();
+  const float* talus = ground_.talus.values().data();
+  const float* cosine = cosine_.values().data();
   const std::uint8_t* direction = direction_.values().data();
+  if (law_.deposition > 0) load_ = Grid<double>(height.width(), height.height(), 0);
+  double* load = load_.empty() ? nullptr : load_.values().data();
   const bool linear = law_.slope_exponent == 1;
   const double n = law_.slope_exponent;
   order_.downstream_first([&](int k) {
@@ -219,7 +154,38 @@ void StreamPowerSolver::erode(Grid<float>& height, double years, const AreaPower
     const float f = erodibility[k] * area_power(k) * r.factor;
     const float above = raised - base;
     const float stays = linear ? above / (1 + f) : newton(above, static_cast<double>(f), n);
-    h[k] = base + std::min(stays, talus[k] * r.distance);
+    h[k] = base + std::min(stays, talus[k] * cosine[k] * r.distance);
+    if (load != nullptr) load[k] = static_cast<double>(raised) - static_cast<double>(h[k]);
+  });
+}
+
+void StreamPowerSolver::deposit(Grid<float>& height, const Grid<float>& area) {
+  const int w = height.width();
+  const auto cell_area = static_cast<float>(cell_ * cell_);
+  const auto share = static_cast<float>(law_.deposition);
+  order_.upstream_first([&](int k) {
+    double& load = load_.values()[at(k)];  // eroded here so far
+    float& h = height.values()[at(k)];
+    float& lies = sediment_.values()[at(k)];
+    lies = std::max(0.0F, lies - static_cast<float>(load));
+    float lowest_donor = std::numeric_limits<float>::infinity();
+    each_donor(direction_, k, [&](int n) {
+      load += load_.values()[at(n)];
+      lowest_donor = std::min(lowest_donor, height.values()[at(n)]);
+    });
+    const int d = direction_.values()[at(k)];
+    if (d >= flow_stops) return;
+    const float spill = height.values()[at(k + flow_step(d, w))];
+    const auto distance = static_cast<float>(cell_ * flow_distance(d));
+    if (h - spill > rests_up_to * ground_.talus.values()[at(k)] * distance) return;
+    const float room = spill > h ? spill - h : std::max(0.0F, 0.5F * (lowest_donor - h));
+    const float wanted = spill > h ? room
+                                   : share * static_cast<float>(load) * cell_area /
+                                         std::max(cell_area, area.values()[at(k)]);
+    const float before = h;
+    h += std::min({wanted, room, static_cast<float>(load)});
+    load = std::max(0.0, load - (static_cast<double>(h) - static_cast<double>(before)));
+    lies += h - before;
   });
 }
 
@@ -248,6 +214,10 @@ void StreamPowerSolver::step(Grid<float>& height, double years) {
       return std::pow(static_cast<float>(static_cast<double>(rain[k]) * cell_area / rain_unit),
                       static_cast<float>(m));
     });
+  }
+  if (law_.deposition > 0) {
+    if (sediment_.empty()) sediment_ = Grid<float>(height.width(), height.height(), 0);
+    deposit(height, area());
   }
   diffuse(height, law_.diffusivity * years / cell_area, {}, progress_);
 }

@@ -18,6 +18,13 @@
 // h'_r + d tan(talus): what would stand steeper falls and is carried off by the stream. Water
 // crosses depressions (flow_routing_pits.hpp) and leaves their ground as it is.
 //
+// With deposition, of the load q that passes a sample in a step (m over its area) G q cell² / A is
+// laid down where the ground is not too steep (Davy and Lague, 2009; Yuan, Braun, Guerit, Rouby,
+// Cordonnier, "A new efficient method to solve the stream power law model taking into account
+// sediment deposition", 2019; here explicit, after the erosion of the step), but only up to half
+// the way to the lowest donor; in depressions as much as there is room for. In balance S then is (1
+// + G)^(1/n) times as great.
+//
 // So that rivers do not run along the axes, samples are thought of as shifted from the grid, each
 // by a random vector of up to `shift` cells (stream_power_mesh.hpp): the receiver is the neighbour
 // with the steepest slope over the distance between shifted samples.
@@ -27,6 +34,7 @@
 #include "erosion/flow_routing.hpp"
 #include "erosion/flow_routing_pits.hpp"
 #include "erosion/hillslope_solver.hpp"
+#include "erosion/stream_power_directions.hpp"
 #include "erosion/stream_power_mesh.hpp"
 
 namespace wold {
@@ -34,6 +42,7 @@ namespace wold {
 struct StreamPowerLaw {
   double area_exponent = 0.45;  ///< m
   double slope_exponent = 1;    ///< n
+  double deposition = 0;        ///< G
   double diffusivity = 0;       ///< κ of hillslopes, m²/yr
   double wandering = 0.5;       ///< of receivers, by chance, each step: 0 to 1
   Sides open = all_sides;
@@ -60,14 +69,16 @@ class StreamPowerSolver {
   /// Of the last step.
   const Grid<std::uint8_t>& direction() const { return direction_; }
   Grid<float> area() const;  ///< m²
+  /// Thickness of what streams laid down, m; empty without deposition. May be set before the first
+  /// step.
+  Grid<float>& sediment() { return sediment_; }
   int pits() const { return pits_; }
   std::size_t trunk_size() const { return order_.trunk_size(); }
 
  private:
   void find_directions(const Grid<float>& height);
-  template <bool shifted>
-  void directions_of_row(const Grid<float>& height, int j);
-  std::uint8_t direction_at(const Grid<float>& height, int i, int j) const;
+  DirectionRow direction_row(const Grid<float>& height, int j) const;
+  std::uint8_t border_direction(const Grid<float>& height, int i, int j) const;
   template <class Amount>
   void find_order(Grid<Amount>& amounts);
   template <class AreaPower>
@@ -82,10 +93,14 @@ class StreamPowerSolver {
   std::uint32_t step_key_ = 0;
   std::array<Grid<float>, 4> nearness_;  ///< 1 / distance to neighbours 0 to 3, per cell
   bool shifted_;
-  Grid<float> steepest_;  ///< slope along the receiver's direction that the talus angle allows
+  Grid<float> cosine_;  ///< between the ways to receivers and the slope
   Grid<std::uint8_t> direction_;
   FlowOrder order_;
   PitRouter router_;
+  void deposit(Grid<float>& height, const Grid<float>& area);
+
+  Grid<double> load_;          ///< carried by the streams in the last step, m over a sample
+  Grid<float> sediment_;       ///< m
   Grid<std::int32_t> count_;   ///< samples upstream
   Grid<std::int64_t> rain_;    ///< Σ rain upstream
   std::vector<float> powers_;  ///< area^m of small counts
