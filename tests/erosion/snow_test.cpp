@@ -1,0 +1,92 @@
+#include "erosion/snow.hpp"
+
+#include <cmath>
+
+#include "../terrain/testing.hpp"
+#include "base/parallel.hpp"
+#include "erosion/ground.hpp"
+
+namespace wold {
+namespace {
+
+using testing_terrain::error_text;
+using testing_terrain::field_of;
+using testing_terrain::run;
+using testing_terrain::Steps;
+
+Heightfield mountains(int resolution) {
+  Steps steps;
+  steps.add("ridged", {});
+  return steps.evaluate({.size = 2000, .resolution = resolution}).field;
+}
+
+void expect_balanced(const TerrainResult& result) {
+  ASSERT_EQ(result.balances.size(), 1U);
+  EXPECT_EQ(result.balances[0].quantity, "snow");
+  EXPECT_GT(result.balances[0].moved, 0);
+  EXPECT_LT(std::abs(result.balances[0].relative_error()), 1e-6);
+}
+
+TEST(Snow, LiesAsDeepAsItFallsOnGentleGround) {
+  const Heightfield ground = field_of(20, 30, 10, {}, [](DVec2 p) { return 1000 + 0.3 * p.x; });
+  const TerrainResult result = run(snow, ground, Snow{});
+  for (const float depth : result.maps.at("snow").values()) EXPECT_NEAR(depth, 3, 1e-4);
+  EXPECT_NEAR(result.field.height(7, 8), ground.height(7, 8) + 3, 1e-3);
+  expect_balanced(result);
+}
+
+TEST(Snow, FallsAboveTheSnowLine) {
+  const Heightfield ground = field_of(101, 5, 10, {}, [](DVec2 p) { return 0.6 * p.x; });
+  const Grid<float> depth = run(snow, ground, Snow{}).maps.at("snow");
+  EXPECT_EQ(depth(24, 2), 0);            // 144 m
+  EXPECT_NEAR(depth(50, 2), 1.5, 0.01);  // 300 m
+  EXPECT_NEAR(depth(76, 2), 3, 1e-3);    // 456 m
+}
+
+TEST(Snow, SlidesOffCliffsAndLiesAtTheirFeet) {
+  // 60 degrees between two plains.
+  const double steep = std::tan(radians(60.0));
+  const Heightfield ground = field_of(
+      121, 9, 5, {}, [&](DVec2 p) { return 1000 + steep * (std::clamp(p.x, 200.0, 300.0) - 200); });
+  const TerrainResult result = run(snow, ground, Snow{});
+  const Grid<float>& depth = result.maps.at("snow");
+  EXPECT_LT(depth(50, 4), 0.2F);
+  EXPECT_GT(depth(40, 4), 10);
+  EXPECT_NEAR(depth(5, 4), 3, 1e-3);
+  expect_balanced(result);
+  for (std::size_t k = 0; k < depth.size(); ++k)
+    EXPECT_GE(result.field.height.values()[k], ground.height.values()[k]);
+}
+
+TEST(Snow, DriftsIntoTheLee) {
+  const Heightfield ridge =
+      field_of(41, 5, 10, {}, [](DVec2 p) { return 1000 - 0.4 * std::abs(p.x - 200); });
+  Snow parameters;
+  parameters.drift = 1;
+  const Grid<float> depth = run(snow, ridge, parameters).maps.at("snow");
+  EXPECT_NEAR(depth(10, 2), 3 * 0.6, 0.01);
+  EXPECT_NEAR(depth(30, 2), 3 * 1.4, 0.01);
+}
+
+TEST(Snow, SameBitsForAnyNumberOfThreads) {
+  const Heightfield ground = mountains(150);
+  const TerrainResult first = [&] {
+    const ThreadLimit limit(1);
+    return run(snow, ground, Snow{});
+  }();
+  expect_balanced(first);
+  const ThreadLimit limit(4);
+  const TerrainResult again = run(snow, ground, Snow{});
+  EXPECT_EQ(first.field.height, again.field.height);
+  EXPECT_EQ(first.maps, again.maps);
+}
+
+TEST(Snow, ErrorsNameTheParameter) {
+  Snow parameters;
+  parameters.depth = -1;
+  EXPECT_NE(error_text([&] { run(snow, mountains(9), parameters); }).find("depth"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace wold

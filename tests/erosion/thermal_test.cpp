@@ -1,0 +1,270 @@
+#include "erosion/thermal.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "../terrain/testing.hpp"
+#include "base/hash.hpp"
+#include "base/parallel.hpp"
+#include "erosion/ground.hpp"
+#include "terrain/analysis.hpp"
+
+namespace wold {
+namespace {
+
+using testing_terrain::error_text;
+using testing_terrain::field_of;
+using testing_terrain::largest_difference;
+using testing_terrain::run;
+using testing_terrain::Steps;
+
+Thermal sand() {
+  Thermal parameters;
+  parameters.cliff_angle = 0;
+  return parameters;
+}
+
+/// A column of sand of a radius in the middle of a plain, whose cone would have `cone_radius`.
+Heightfield column(int samples, double cell, double radius, double cone_radius) {
+  const double middle = 0.5 * cell * (samples - 1);
+  const double height = std::tan(radians(33.0)) * std::pow(cone_radius, 3) / 3 / (radius * radius);
+  return field_of(samples, samples, cell, {},
+                  [&](DVec2 p) { return glm::length(p - DVec2(middle)) < radius ? height : 0; });
+}
+
+Heightfield mountains(int resolution) {
+  Steps steps;
+  steps.add("ridged", {});
+  return steps.evaluate({.size = 2000, .resolution = resolution}).field;
+}
+
+/// The angle of the flank from the middle in a direction, degrees.
+double flank(const Heightfield& field, double direction, double from, double to) {
+  const DVec2 middle = field.origin + 0.5 * field.size();
+  const DVec2 along(std::cos(radians(direction)), std::sin(radians(direction)));
+  const auto height = [&](double r) {
+    return static_cast<double>(height_at(field, middle + r * along));
+  };
+  return degrees(std::atan((height(from) - height(to)) / (to - from)));
+}
+
+double foot(const Heightfield& field, double direction) {
+  const DVec2 middle = field.origin + 0.5 * field.size();
+  const DVec2 along(std::cos(radians(direction)), std::sin(radians(direction)));
+  double r = 0;
+  while (height_at(field, middle + r * along) > 1) r += 0.1 * field.cell;
+  return r;
+}
+
+void expect_balanced(const TerrainResult& result) {
+  ASSERT_EQ(result.balances.size(), 1U);
+  EXPECT_GT(result.balances[0].moved, 0);
+  EXPECT_LT(std::abs(result.balances[0].relative_error()), 1e-6);
+}
+
+TEST(Thermal, SandFallsToARoundConeAtItsAngle) {
+  for (const bool ladder : {false, true}) {
+    Thermal parameters = sand();
+    parameters.ladder = ladder;
+    parameters.max_passes = 20000;
+    const TerrainResult result = run(thermal, column(129, 4, 40, 160), parameters);
+    for (const double direction : {0.0, 15.0, 22.5, 30.0, 45.0, 60.0, 90.0, 200.0}) {
+      EXPECT_NEAR(flank(result.field, direction, 24, 130), 33, 0.5) << direction;
+      EXPECT_NEAR(foot(result.field, direction), 160, ladder ? 16 : 4) << direction;
+    }
+    EXPECT_LT(steepest_step(result.field.height, 4), 33.5);
+    expect_balanced(result);
+  }
+}
+
+TEST(Thermal, ASpikeOfOneCellFallsToACone) {
+  Heightfield field = field_of(65, 65, 2, {}, [](DVec2) { return 0; });
+  field.height(32, 32) = 5000;
+  const TerrainResult result = run(thermal, field, sand());
+  // 20000 m³ of sand make a cone of radius (3 V / π tan 33°)^(1/3) = 30.9 m.
+  for (const double direction : {0.0, 20.0, 45.0, 70.0})
+    EXPECT_NEAR(foot(result.field, direction), 30.9, 5) << direction;
+  EXPECT_NEAR(volume(result.field.height, 2), 20000, 0.02);
+}
+
+TEST(Thermal, NothingMovesBelowTheAngle) {
+  const Heightfield slope = field_of(
+      40, 30, 5, {}, [](DVec2 p) { return std::tan(radians(32.5)) * (0.8 * p.x + 0.6 * p.y); });
+  EXPECT_EQ(run(thermal, slope, sand()).field.height, slope.height);
+}
+
+TEST(Thermal, AStepOfSandBecomesARampAboutItsMiddle) {
+  const Heightfield step = field_of(121, 9, 1, {}, [](DVec2 p) { return p.x < 59.5 ? 20 : 0; });
+  const TerrainResult result = run(thermal, step, sand());
+  const double slope = std::tan(radians(33.0));
+  for (int i = 0; i < 121; ++i)
+    EXPECT_NEAR(static_cast<double>(result.field.height(i, 4)),
+                std::clamp(10 - slope * (i - 59.5), 0.0, 20.0), 0.8)
+        << i;
+}
+
+TEST(Thermal, NoSlopeStaysSteeperThanTheTolerance) {
+  const Heightfield ground = mountains(97);
+  for (const float angle : {20.0F, 33.0F, 45.0F}) {
+    Thermal parameters = sand();
+    parameters.talus_angle = angle;
+    parameters.max_passes = 20000;
+    const TerrainResult result = run(thermal, ground, parameters);
+    EXPECT_LT(steepest_step(result.field.height, ground.cell), static_cast<double>(angle) + 0.51);
+    const Grid<float> slope = slope_map(result.field);
+    for (int j = 1; j < slope.height() - 1; ++j)
+      for (int i = 1; i < slope.width() - 1; ++i) ASSERT_LT(slope(i, j), angle + 0.6F);
+    expect_balanced(result);
+  }
+}
+
+TEST(Thermal, CliffsBreakAndScreeLiesAtTheirFeet) {
+  const Heightfield step = field_of(161, 9, 2, {}, [](DVec2 p) { return p.x < 159 ? 100 : 0; });
+  Thermal parameters;
+  parameters.max_passes = 50000;
+  const TerrainResult result = run(thermal, step, parameters);
+  const Grid<float>& wear = result.maps.at("wear");
+  const Grid<float>& scree = result.maps.at("sediment");
+  expect_balanced(result);
+  // What broke off lies elsewhere.
+  EXPECT_GT(volume(wear, 2), 1000);
+  EXPECT_NEAR(volume(wear, 2), volume(scree, 2), 1e-3 * volume(wear, 2));
+  for (int i = 0; i < 159; ++i) {
+    const double drop =
+        static_cast<double>(result.field.height(i, 4)) - result.field.height(i + 1, 4);
+    EXPECT_LT(degrees(std::atan(drop / 2)), 50.6) << i;
+    if (scree(i, 4) > 0.2F && scree(i + 1, 4) > 0.2F) {
+      EXPECT_LT(degrees(std::atan(drop / 2)), 34) << i;
+    }
+  }
+}
+
+TEST(Thermal, OnlyTheLooseMovesWhereRockNeverBreaks) {
+  const Heightfield ground = mountains(65);
+  Thermal parameters;
+  parameters.cliff_angle = 90;
+  EXPECT_EQ(run(thermal, ground, parameters).field.height, ground.height);
+  parameters.loose_depth = 2;
+  const TerrainResult result = run(thermal, ground, parameters);
+  expect_balanced(result);
+  for (const float w : result.maps.at("wear").values()) EXPECT_EQ(w, 0);
+  for (std::size_t k = 0; k < ground.height.size(); ++k)
+    EXPECT_GE(result.field.height.values()[k], ground.height.values()[k] - 2.001F);
+}
+
+TEST(Thermal, HardGroundStays) {
+  const Heightfield ground = mountains(65);
+  Grid<float> hard(65, 65);
+  for (int j = 0; j < 65; ++j)
+    for (int i = 0; i < 65; ++i) hard(i, j) = i < 30 ? 1.0F : 0.0F;
+  const std::map<std::string, Grid<float>> maps{{"hard", hard}};
+  for (const bool inverted : {false, true}) {
+    Progress progress;
+    const std::map<std::string, TerrainResult> none;
+    const TerrainContext context{1, {ground.origin, ground.size()}, {}, none, progress, &maps};
+    Thermal parameters = sand();
+    parameters.hardness = "hard";
+    parameters.hardness_invert = inverted;
+    const TerrainResult result = thermal(ground, parameters, context);
+    float soft = 0;
+    for (int j = 0; j < 65; ++j)
+      for (int i = 0; i < 65; ++i) {
+        const float wear = result.maps.at("wear")(i, j);
+        if ((i < 30) != inverted) {
+          EXPECT_EQ(wear, 0) << i << ' ' << j;
+        } else {
+          soft = std::max(soft, wear);
+        }
+      }
+    EXPECT_GT(soft, 1);
+  }
+}
+
+TEST(Thermal, TimeIsOfTheWorldNotOfTheGrid) {
+  // A ridge too steep by little spreads as by diffusion: the same after the same years.
+  const auto worn = [](int samples) {
+    const double cell = 256.0 / (samples - 1);
+    const Heightfield ridge = field_of(samples, 9, cell, {}, [](DVec2 p) {
+      return 60 * std::exp(-std::pow((p.x - 128) / 30, 2));
+    });
+    Thermal parameters = sand();
+    parameters.talus_angle = 20;
+    parameters.years = 200;
+    return height_at(run(thermal, ridge, parameters).field, {128, 4 * cell});
+  };
+  const float coarse = worn(65);
+  EXPECT_LT(coarse, 59);
+  EXPECT_NEAR(coarse, worn(129), 0.4);
+  EXPECT_NEAR(worn(129), worn(257), 0.2);
+}
+
+TEST(Thermal, ResolutionsAgree) {
+  const Heightfield coarse = run(thermal, mountains(65), Thermal{}).field;
+  const Heightfield fine = run(thermal, mountains(129), Thermal{}).field;
+  const HeightStatistics range = height_statistics(coarse);
+  double sum = 0;
+  for (int j = 0; j < 65; ++j)
+    for (int i = 0; i < 65; ++i)
+      sum += std::pow(static_cast<double>(coarse.height(i, j)) - fine.height(2 * i, 2 * j), 2);
+  EXPECT_LT(std::sqrt(sum / (65 * 65)), 0.02 * static_cast<double>(range.max - range.min));
+}
+
+TEST(Thermal, SameBitsForAnyNumberOfThreads) {
+  const Heightfield ground = mountains(150);
+  Thermal parameters;
+  parameters.max_passes = 60;
+  const TerrainResult first = [&] {
+    const ThreadLimit limit(1);
+    return run(thermal, ground, parameters);
+  }();
+  for (const int threads : {2, 4}) {
+    const ThreadLimit limit(threads);
+    const TerrainResult again = run(thermal, ground, parameters);
+    EXPECT_EQ(first.field.height, again.field.height);
+    EXPECT_EQ(first.maps, again.maps);
+  }
+}
+
+TEST(Thermal, AnyShapeWorks) {
+  for (const auto& [w, h] : {std::pair{2, 5}, {5, 2}, {2, 2}, {3, 200}, {131, 35}}) {
+    const Heightfield ground = field_of(w, h, 1, {}, [](DVec2 p) {
+      return 30 * uniform(random_bits(1, static_cast<int>(p.x), static_cast<int>(p.y)));
+    });
+    for (const auto neighbours :
+         {SlideNeighbours::four, SlideNeighbours::diagonals, SlideNeighbours::alternating})
+      for (const float cliff : {0.0F, 50.0F}) {
+        Thermal parameters;
+        parameters.neighbours = neighbours;
+        parameters.cliff_angle = cliff;
+        const TerrainResult result = run(thermal, ground, parameters);
+        EXPECT_LT(std::abs(result.balances[0].error()), 1e-3) << w << 'x' << h;
+      }
+  }
+}
+
+TEST(Thermal, CanBeCancelled) {
+  const Heightfield ground = mountains(97);
+  Progress progress;
+  progress.cancel();
+  const std::map<std::string, TerrainResult> none;
+  const TerrainContext context{1, {ground.origin, ground.size()}, {}, none, progress};
+  error_text([&] { thermal(ground, Thermal{}, context); }, ErrorKind::cancelled);
+}
+
+TEST(Thermal, ErrorsNameTheParameter) {
+  const Heightfield ground = mountains(17);
+  Thermal parameters;
+  parameters.talus_angle = 95;
+  EXPECT_NE(error_text([&] { run(thermal, ground, parameters); }).find("talus_angle"),
+            std::string::npos);
+  Heightfield broken = ground;
+  broken.height(3, 2) = NAN;
+  EXPECT_NE(error_text([&] { run(thermal, broken, Thermal{}); }).find("(3, 2)"), std::string::npos);
+  parameters = {};
+  parameters.hardness = "nothing";
+  EXPECT_NE(error_text([&] { run(thermal, ground, parameters); }, ErrorKind::io).find("nothing"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace wold
