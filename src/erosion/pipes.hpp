@@ -79,6 +79,7 @@ struct Pipes {
   float stirring = 0.3F;     ///< sediment that strays down a side slope of 1, of that carried
   std::string hardness;      ///< map
   bool hardness_invert = false;
+  float unevenness = 1;  ///< of the rock: hardness varies by e^±this
   float drag = 0.05F;    ///< c
   float pipe_depth = 5;  ///< m
   float top_speed = 5;   ///< m/s

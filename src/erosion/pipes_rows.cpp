@@ -141,7 +141,7 @@ void exchange(const ExchangeRow& r, Grains* __restrict new_depth, Grains* __rest
 
 namespace {
 
-constexpr float spread = 1.0F / 12;  // of the newest change, to each neighbour beside
+constexpr float spread = 1.0F / 8;  // of the newest change, to each neighbour beside
 
 /// What slides from sample i of `a` to sample k of `b`, `far` cells apart, in grains.
 Grains slides(const SlideState& a, int i, const SlideState& b, int k, float far, float weight,

@@ -1,0 +1,321 @@
+#include "erosion/dissolution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "base/parallel.hpp"
+#include "erosion/dissolution_rows.hpp"
+#include "erosion/ghost_grid.hpp"
+#include "erosion/ground.hpp"
+#include "erosion/pipes_input.hpp"
+
+namespace wold {
+
+using namespace dissolution_detail;
+using namespace pipes_detail;
+
+namespace {
+
+constexpr float wall = 1e6F;          // m, height of ground beyond a closed border
+constexpr float drop_beyond = 0.01F;  // of a cell: fall of the ground beyond an open border
+constexpr int rows_per_task = 16;
+
+struct RowSums {
+  std::int64_t water_in = 0;
+  std::int64_t water_out = 0;
+  std::int64_t ground_out = 0;
+  std::int64_t taken_up = 0;
+};
+
+class SlowWater {
+ public:
+  SlowWater(const Heightfield& input, const Dissolution& p, const TerrainContext& context);
+
+  void run();
+  TerrainResult result() const;
+
+ private:
+  WaterRow row(int j) const {
+    return {ground_.row(j),    change_.row(j), depth_.row(j),
+            dissolved_.row(j), give_.row(j),   load_.row(j)};
+  }
+  void set_ghosts();
+  void weather_and_exchange(float turn);
+  void weather_row(int j, float turn, RowSums& sums);
+  void move();
+  RowSums lost_over_border() const;
+  void add(const RowSums& sums);
+
+  const Heightfield& input_;
+  const Dissolution& p_;
+  const TerrainContext& context_;
+  int width_;
+  int height_;
+  bool periodic_;
+  double step_ = 1;  ///< s
+  GhostGrid<float> ground_;
+  GhostGrid<Grains> change_;
+  GhostGrid<Grains> depth_;
+  GhostGrid<Grains> dissolved_;
+  GhostGrid<Grains> next_depth_;
+  GhostGrid<Grains> next_dissolved_;
+  GhostGrid<float> give_;
+  GhostGrid<float> load_;
+  Grid<float> ease_;
+  Grid<float> rain_;
+  RowSums sums_;
+  double water_before_ = 0;  ///< grains
+};
+
+SlowWater::SlowWater(const Heightfield& input, const Dissolution& p, const TerrainContext& context)
+    : input_(input),
+      p_(p),
+      context_(context),
+      width_(input.height.width()),
+      height_(input.height.height()),
+      periodic_(p.border == WaterBorder::periodic),
+      ground_(width_, height_),
+      change_(width_, height_),
+      depth_(width_, height_),
+      dissolved_(width_, height_),
+      next_depth_(width_, height_),
+      next_dissolved_(width_, height_),
+      give_(width_, height_),
+      load_(width_, height_),
+      ease_(ease_of(input, p.hardness, p.hardness_invert, context)),
+      rain_(factor_map(input, p.rain_map, 1, context)) {
+  const Grid<float> water = depth_map(input, p.water, context);
+  for (int j = 0; j < height_; ++j) {
+    for (int i = 0; i < width_; ++i) {
+      ground_.row(j)[i] = input.height(i, j);
+      depth_.row(j)[i] = static_cast<Grains>(water(i, j) * grains_per_metre);
+      water_before_ += depth_.row(j)[i];
+    }
+    ground_.fill_sides(j, periodic_);
+  }
+  ground_.fill_ends(periodic_);
+}
+
+void SlowWater::set_ghosts() {
+  for (int j = 0; j < height_; ++j) {
+    change_.fill_sides(j, periodic_);
+    depth_.fill_sides(j, periodic_);
+    dissolved_.fill_sides(j, periodic_);
+  }
+  change_.fill_ends(periodic_);
+  depth_.fill_ends(periodic_);
+  dissolved_.fill_ends(periodic_);
+  if (periodic_) return;
+  // Beyond the border there is a wall, or dry ground a little lower; it gives nothing back.
+  const float beyond =
+      p_.border == WaterBorder::closed ? wall : -drop_beyond * static_cast<float>(input_.cell);
+  const auto set = [&](int j, int i, int inner_j, int inner_i) {
+    ground_.row(j)[i] = ground_.row(inner_j)[inner_i] + beyond;
+    depth_.row(j)[i] = 0;
+  };
+  for (int j = -1; j <= height_; ++j) {
+    const int inner = std::clamp(j, 0, height_ - 1);
+    set(j, -1, inner, 0);
+    set(j, width_, inner, width_ - 1);
+  }
+  for (int i = 0; i < width_; ++i) {
+    set(-1, i, 0, i);
+    set(height_, i, height_ - 1, i);
+  }
+}
+
+void SlowWater::weather_row(int j, float turn, RowSums& sums) {
+  const double hours = step_ / 3600;
+  const auto rained =
+      static_cast<float>(static_cast<double>(p_.rain) / 1000 * hours) * grains_per_metre;
+  const auto share = [&](float rate) {
+    return static_cast<float>(-std::expm1(-static_cast<double>(rate) * hours));
+  };
+  const float evaporated = share(p_.evaporation);
+  const float dissolving = share(p_.dissolving);
+  const float depositing = share(p_.depositing);
+  const auto dry = static_cast<Grains>(p_.dry_depth * grains_per_metre);
+  Grains* depth = depth_.row(j);
+  Grains* dissolved = dissolved_.row(j);
+  Grains* change = change_.row(j);
+  for (int i = 0; i < width_; ++i) {
+    const auto in = static_cast<Grains>(rain_(i, j) * rained + turn);
+    const Grains wet = depth[i] + in;
+    const auto gone = static_cast<Grains>(static_cast<float>(wet) * evaporated);
+    const Grains left = std::max(wet - gone, 0);
+    const bool dries = left < dry && evaporated > 0;
+    depth[i] = dries ? 0 : left;
+    sums.water_in += in;
+    sums.water_out += wet - depth[i];
+    const float lack =
+        p_.saturation * static_cast<float>(depth[i]) - static_cast<float>(dissolved[i]);
+    const float taken = lack > 0 ? lack * dissolving * ease_(i, j) : lack * depositing;
+    // What dries up lays down all it held.
+    const Grains x = dries ? -dissolved[i] : static_cast<Grains>(taken);
+    dissolved[i] += x;
+    change[i] -= x;
+    sums.taken_up += std::max(x, 0);
+  }
+}
+
+void SlowWater::weather_and_exchange(float turn) {
+  std::vector<RowSums> sums(static_cast<std::size_t>(height_));
+  parallel_for(
+      0, height_,
+      [&](int j) {
+        context_.progress.check();
+        weather_row(j, turn, sums[static_cast<std::size_t>(j)]);
+      },
+      rows_per_task);
+  for (const RowSums& s : sums) add(s);
+}
+
+void SlowWater::add(const RowSums& s) {
+  sums_.water_in += s.water_in;
+  sums_.water_out += s.water_out;
+  sums_.ground_out += s.ground_out;
+  sums_.taken_up += s.taken_up;
+}
+
+void SlowWater::move() {
+  set_ghosts();
+  parallel_for(
+      0, height_,
+      [&](int j) {
+        context_.progress.check();
+        offer(row(j - 1), row(j), row(j + 1), give_.row(j), load_.row(j), width_);
+        if (periodic_) {
+          give_.fill_sides(j, true);
+          load_.fill_sides(j, true);
+        }
+      },
+      rows_per_task);
+  if (periodic_) {
+    give_.fill_ends(true);
+    load_.fill_ends(true);
+  } else {
+    add(lost_over_border());
+  }
+  parallel_for(
+      0, height_,
+      [&](int j) {
+        context_.progress.check();
+        flow(row(j - 1), row(j), row(j + 1), next_depth_.row(j), next_dissolved_.row(j), width_);
+      },
+      rows_per_task);
+  std::swap(depth_, next_depth_);
+  std::swap(dissolved_, next_dissolved_);
+}
+
+RowSums SlowWater::lost_over_border() const {
+  RowSums sums;
+  const auto outside = [&](int i, int j) { return i < 0 || j < 0 || i >= width_ || j >= height_; };
+  const auto lose = [&](int i, int j) {
+    for (int dj = -1; dj <= 1; ++dj) {
+      for (int di = -1; di <= 1; ++di) {
+        if (!outside(i + di, j + dj)) continue;
+        const Flow out = flow_between(row(j), i, row(j + dj), i + di, di != 0 && dj != 0 ? 2 : 1);
+        sums.water_out += out.water;
+        sums.ground_out += out.dissolved;
+      }
+    }
+  };
+  for (int j = 0; j < height_; ++j) {
+    const int step = j == 0 || j == height_ - 1 ? 1 : width_ - 1;
+    for (int i = 0; i < width_; i += step) lose(i, j);
+  }
+  return sums;
+}
+
+void SlowWater::run() {
+  const double seconds = 3600 * static_cast<double>(p_.duration);
+  const double steps = std::ceil(seconds * static_cast<double>(p_.speed) / input_.cell);
+  if (steps < 1) return;
+  step_ = seconds / steps;
+  context_.progress.begin("dissolution", steps * static_cast<double>(input_.height.size()),
+                          "cell steps");
+  for (double k = 0; k < steps; ++k) {
+    // What is less than a grain rains by turns.
+    weather_and_exchange(static_cast<float>(std::fmod(k * 0.6180339887498949, 1.0)));
+    move();
+    context_.progress.advance(static_cast<double>(input_.height.size()));
+  }
+  context_.progress.end();
+}
+
+TerrainResult SlowWater::result() const {
+  Grid<Grains> change(width_, height_);
+  Grid<Grains> dissolved(width_, height_);
+  TerrainResult out;
+  Grid<float> water(width_, height_);
+  double water_after = 0;
+  for (int j = 0; j < height_; ++j) {
+    for (int i = 0; i < width_; ++i) {
+      change(i, j) = change_.row(j)[i];
+      dissolved(i, j) = dissolved_.row(j)[i];
+      water(i, j) = metres_per_grain * static_cast<float>(depth_.row(j)[i]);
+      water_after += depth_.row(j)[i];
+    }
+  }
+  const double per_grain = input_.cell * input_.cell * static_cast<double>(metres_per_grain);
+  Balance earth{.quantity = "ground"};
+  earth.before = volume(input_.height, input_.cell);
+  earth.removed = per_grain * static_cast<double>(sums_.ground_out);
+  earth.moved = per_grain * static_cast<double>(sums_.taken_up);
+  out.field = changed_ground(input_, change, dissolved, out.maps);
+  earth.after = volume(out.field.height, input_.cell);
+  Balance wet{.quantity = "water"};
+  wet.before = per_grain * water_before_;
+  wet.added = per_grain * static_cast<double>(sums_.water_in);
+  wet.removed = per_grain * static_cast<double>(sums_.water_out);
+  wet.after = per_grain * water_after;
+  wet.moved = wet.before + wet.added;
+  out.balances = {earth, wet};
+  out.maps["water"] = std::move(water);
+  return out;
+}
+
+}  // namespace
+
+Description<Dissolution> describe(const Dissolution&) {
+  return Description<Dissolution>("dissolution",
+                                  "Slow water dissolves the ground and lays it down where it dries "
+                                  "up: smooth beds of lakes and slow rivers.")
+      .add("duration", &Dissolution::duration, {.unit = "h", .min = 0, .max = 1e5},
+           "How long it rains and flows.")
+      .add("rain", &Dissolution::rain, {.unit = "mm/h", .min = 0, .max = 1000}, "How much.")
+      .add("rain_map", &Dissolution::rain_map,
+           "Map that multiplies the rain (0 to 1): a step, a map, a picture.")
+      .add("water", &Dissolution::water, "Map of the water's depth (m) at the beginning.")
+      .add("evaporation", &Dissolution::evaporation, {.unit = "1/h", .min = 0, .max = 1000},
+           "Share of the water's depth that evaporates in an hour.")
+      .add("dry_depth", &Dissolution::dry_depth, {.unit = "m", .min = 0, .max = 10},
+           "Less water than this evaporates at once.")
+      .add("saturation", &Dissolution::saturation, {.min = 0, .max = 10},
+           "Ground that water can hold, m per m of depth.")
+      .add("dissolving", &Dissolution::dissolving, {.unit = "1/h", .min = 0, .max = 1e4},
+           "How fast water takes up what it lacks.")
+      .add("depositing", &Dissolution::depositing, {.unit = "1/h", .min = 0, .max = 1e4},
+           "How fast water lays down what it holds too much.")
+      .add("speed", &Dissolution::speed, {.unit = "m/s", .min = 0.0001, .max = 10},
+           "How fast water creeps.")
+      .choice(
+          "border", &Dissolution::border, {"open", "closed", "periodic"},
+          "What happens to water at the border: it leaves, is held, or comes in again opposite.")
+      .add("hardness", &Dissolution::hardness,
+           "Map of what resists (0 to 1, white does not wear): a step, a map, a picture.")
+      .add("hardness_invert", &Dissolution::hardness_invert, "Whether black is hard instead.");
+}
+
+TerrainResult dissolution(const Heightfield& input, const Dissolution& parameters,
+                          const TerrainContext& context) {
+  check_erosion(input, parameters);
+  SlowWater water(input, parameters, context);
+  water.run();
+  return water.result();
+}
+
+}  // namespace wold
