@@ -10,6 +10,7 @@ JOBS ?= $(shell nproc)
 INSTALL ?= yes
 BENCH ?= OFF
 TIDY_SECONDS ?= 0
+FUZZ_SECONDS ?= 60
 
 BUILD := build/$(PRESET)
 WOLD := $(BUILD)/bin/wold
@@ -17,7 +18,7 @@ WOLD := $(BUILD)/bin/wold
 # $(call install,GROUPS): installs what is missing of these groups of packages.
 install = $(if $(filter no,$(INSTALL)),true,tools/install_dependencies $(1))
 
-.PHONY: forest program test check format tidy includes bench docs clean help
+.PHONY: forest program test check format tidy includes bench fuzz docs clean help
 
 forest: program ## install what is missing, build, render scenes/forest.toml to out/forest.png
 	@mkdir -p out
@@ -61,6 +62,12 @@ bench: ## build and run the benchmarks, write docs/benchmarks.md
 	@cmake --preset $(PRESET) -DWOLD_BENCH=ON --log-level=NOTICE
 	@cmake --build $(BUILD) --parallel $(JOBS)
 	@tools/run_benchmarks $(BUILD)/bin
+
+fuzz: ## feed the readers of files with what no file should hold (FUZZ_SECONDS=N for each)
+	@$(call install,build fuzz)
+	@cmake --preset fuzz --log-level=NOTICE
+	@cmake --build build/fuzz --target fuzz_targets --parallel $(JOBS)
+	@tools/run_fuzz build/fuzz $(FUZZ_SECONDS)
 
 docs: program ## write docs/reference and the schema of scene files, from the program
 	@tools/make_docs $(WOLD)

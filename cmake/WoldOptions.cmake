@@ -29,6 +29,13 @@ if(WOLD_SANITIZE)
   target_link_options(wold_options INTERFACE -fsanitize=${WOLD_SANITIZE})
 endif()
 
+if(WOLD_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR "WOLD_FUZZ needs clang: cmake --preset fuzz")
+  endif()
+  target_compile_options(wold_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
 find_program(WOLD_CCACHE ccache)
 if(WOLD_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${WOLD_CCACHE})

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
 namespace wold::mesh_edit {
@@ -15,24 +15,22 @@ namespace {
 /// For each point the first with the same position and normal: where a file has it more than once
 /// (a seam of texture coordinates) the surface was smooth, and stays so.
 std::vector<std::uint32_t> same_points(const Content& content) {
+  // By bits: numbers that are none have no order.
   const auto key = [&](std::uint32_t k) {
     const DVec3& p = content.positions[content.points[k].position];
-    const Vec3& n = content.points[k].normal;
-    return std::array<double, 6>{p.x, p.y, p.z, double{n.x}, double{n.y}, double{n.z}};
-  };
-  // By bits: numbers that are none have no order.
-  const auto compare = [&](std::uint32_t a, std::uint32_t b) {
-    return std::memcmp(key(a).data(), key(b).data(), sizeof(double) * 6);
+    const DVec3 n(content.points[k].normal);
+    return std::bit_cast<std::array<std::uint64_t, 6>>(
+        std::array<double, 6>{p.x, p.y, p.z, n.x, n.y, n.z});
   };
   std::vector<std::uint32_t> order(content.points.size());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const int difference = compare(a, b);
-    return difference != 0 ? difference < 0 : a < b;
+    const auto order_of_keys = key(a) <=> key(b);
+    return order_of_keys != 0 ? order_of_keys < 0 : a < b;
   });
   std::vector<std::uint32_t> same(order.size());
   for (std::size_t k = 0; k < order.size(); ++k)
-    same[order[k]] = k > 0 && compare(order[k], order[k - 1]) == 0 ? same[order[k - 1]] : order[k];
+    same[order[k]] = k > 0 && key(order[k]) == key(order[k - 1]) ? same[order[k - 1]] : order[k];
   return same;
 }
 

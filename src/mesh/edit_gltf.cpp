@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "mesh/gltf_document.hpp"
+
 namespace wold::mesh_edit {
 
 namespace {
@@ -95,6 +97,7 @@ GltfLayout layout_of(const GltfModel& model) {
 
 Content gltf_content(std::string_view bytes, const std::string& file) {
   const GltfModel model(bytes, file);
+  const GltfDocument writable(bytes, model);  // refuses now what could not be written later
   const GltfLayout layout = layout_of(model);
   Content content;
   for (const GltfBlock& block : layout.positions) add_positions(model, block, content);

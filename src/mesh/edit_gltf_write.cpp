@@ -23,8 +23,8 @@ class GltfWriter {
       if (moved(block)) changed_.insert(block.accessor);
     for (const GltfBlock& block : layout_.normals)
       if (turned(block)) changed_.insert(block.accessor);
-    for (std::size_t k = 0; k < layout_.positions.size(); ++k)
-      position_accessors_.push_back(write_positions(layout_.positions[k]));
+    for (const GltfBlock& block : layout_.positions)
+      position_accessors_.push_back(write_positions(block));
     for (const GltfBlock& block : layout_.normals)
       normal_accessors_.push_back(write_normals(block));
     for (const GltfUse& use : layout_.uses) point_to_accessors(use);

@@ -15,7 +15,6 @@
 
 namespace wold {
 
-using mesh_edit::Content;
 using mesh_edit::Edit;
 using mesh_edit::FileFormat;
 

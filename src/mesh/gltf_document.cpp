@@ -69,6 +69,23 @@ GltfDocument::GltfDocument(std::string_view bytes, const GltfModel& model)
     json_ = Json::parse(bytes, nullptr, false);
   indented_ = !binary_ && bytes.find('\n') < bytes.find_last_not_of(" \r\n");
   if (json_.is_discarded()) model.fail("its JSON cannot be read");
+  check_shape();
+}
+
+void GltfDocument::check_shape() const {
+  // tinygltf passes over what it cannot use, and counts without it.
+  const auto check = [&](const Json& parent, const char* name, std::size_t count) {
+    const auto list = parent.find(name);
+    if ((list == parent.end() ? 0 : list->size()) != count)
+      model_.fail(fmt::format("some of its {} are not usable", name));
+  };
+  check(json_, "nodes", model_->nodes.size());
+  check(json_, "meshes", model_->meshes.size());
+  check(json_, "accessors", model_->accessors.size());
+  check(json_, "bufferViews", model_->bufferViews.size());
+  check(json_, "buffers", model_->buffers.size());
+  for (std::size_t k = 0; k < model_->meshes.size(); ++k)
+    check(json_["meshes"][k], "primitives", model_->meshes[k].primitives.size());
 }
 
 void GltfDocument::read_chunks(std::string_view bytes) {

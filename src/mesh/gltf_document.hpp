@@ -32,6 +32,7 @@ class GltfDocument {
 
  private:
   void read_chunks(std::string_view bytes);
+  void check_shape() const;
   bool is_binary_chunk(std::size_t buffer) const;
 
   const GltfModel& model_;
