@@ -1,7 +1,9 @@
 #include "terrain/combine.hpp"
 
 #include "terrain/field_map.hpp"
+#include "terrain/resample.hpp"
 #include "terrain/soft.hpp"
+#include "terrain/step_mask.hpp"
 
 namespace wold {
 
@@ -38,10 +40,27 @@ Description<Combine> describe(const Combine&) {
 
 Heightfield combine(const Heightfield& input, const Combine& parameters,
                     const TerrainContext& context) {
-  const Grid<float>& other = context.step(parameters.with).field.height;
+  Grid<float> other = context.step(parameters.with).field.height;
+  if (!other.same_shape(input.height))
+    other = resample(other, {input.origin, input.size()}, Outside::clamp, input, context.progress);
   return map_heights(input, context, [&](float h, int i, int j) {
     return combined(parameters, h, parameters.scale * other(i, j));
   });
+}
+
+Description<AddMap> describe(const AddMap&) {
+  return Description<AddMap>("add_map", "Raises the ground by a map, such as the depth of water.")
+      .add("map", &AddMap::map, "A map of a step before, such as rivers.water, or a picture.")
+      .add("factor", &AddMap::factor, {.unit = "m", .min = -1e5, .max = 1e5},
+           "Height of a value of 1.");
+}
+
+Heightfield add_map(const Heightfield& input, const AddMap& parameters,
+                    const TerrainContext& context) {
+  if (parameters.map.empty()) throw Error(ErrorKind::input, "'add_map' needs a 'map'");
+  const Grid<float> map = map_over(input, parameters.map, context);
+  return map_heights(input, context,
+                     [&](float h, int i, int j) { return h + parameters.factor * map(i, j); });
 }
 
 }  // namespace wold

@@ -1,6 +1,7 @@
 #include "terrain/mask.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "terrain/analysis.hpp"
@@ -59,6 +60,23 @@ Grid<float> noise_mask(const Heightfield& input, const Mask& m, const TerrainCon
   return out;
 }
 
+Grid<float> mask_of_map(const Heightfield& input, const Mask& m, const TerrainContext& context) {
+  if (m.map.empty()) throw Error(ErrorKind::input, "a mask from a map needs a 'map'");
+  if (m.map_range.high <= m.map_range.low || (m.logarithmic && m.map_range.low <= 0))
+    throw Error(
+        ErrorKind::input,
+        "the two values in 'map_range' of 'mask' must differ, and be above 0 if logarithmic");
+  const auto scaled = [&](float value) {
+    return m.logarithmic ? std::log(std::max(value, m.map_range.low)) : value;
+  };
+  const float low = scaled(m.map_range.low);
+  const float per_unit = 1 / (scaled(m.map_range.high) - low);
+  Grid<float> map = map_over(input, m.map, context);
+  for (float& value : map.values())
+    value = std::clamp((scaled(value) - low) * per_unit, 0.0F, 1.0F);
+  return map;
+}
+
 Grid<float> source_map(const Heightfield& input, const Mask& m, const TerrainContext& context) {
   switch (m.from) {
     case MaskSource::height: return height_mask(input, m, context.progress);
@@ -66,6 +84,7 @@ Grid<float> source_map(const Heightfield& input, const Mask& m, const TerrainCon
     case MaskSource::crests:
     case MaskSource::hollows: return curvature_mask(input, m);
     case MaskSource::noise: return noise_mask(input, m, context);
+    case MaskSource::map: return mask_of_map(input, m, context);
     case MaskSource::picture: break;
   }
   if (m.picture.empty()) throw Error(ErrorKind::input, "a mask from a picture needs a 'picture'");
@@ -78,7 +97,7 @@ Grid<float> source_map(const Heightfield& input, const Mask& m, const TerrainCon
 Description<Mask> describe(const Mask&) {
   using M = Mask;
   return Description<M>("mask", "Makes a map of where later steps act; the ground stays as it is.")
-      .choice("from", &M::from, {"height", "slope", "crests", "hollows", "noise", "picture"},
+      .choice("from", &M::from, {"height", "slope", "crests", "hollows", "noise", "picture", "map"},
               "What the map shows.")
       .add("height", &M::height, {.unit = "m", .min = -1e5, .max = 1e5}, "Heights that are inside.")
       .add("height_feather", &M::height_feather, {.unit = "m", .min = 0, .max = 1e5},
@@ -94,6 +113,11 @@ Description<Mask> describe(const Mask&) {
       .add("edge", &M::edge, {.min = 0, .max = 2}, "Softness of the edge of patches.")
       .add("picture", &M::picture, "A picture laid over the whole terrain, north up.")
       .add("channel", &M::channel, "The picture's channel; default: the first.")
+      .add("map", &M::map, "A map of a step before, such as rivers.flow.")
+      .add("map_range", &M::map_range, {.min = -1e9, .max = 1e12},
+           "Values of the map that become 0 and 1.")
+      .add("logarithmic", &M::logarithmic,
+           "Measures the map's values by their magnitude, as areas want it.")
       .add("smooth", &M::smooth, {.unit = "m", .min = 0, .max = 1e5},
            "Smooths the ground before slope and curvature are taken.")
       .add("invert", &M::invert, "Turns inside and outside over.");

@@ -5,12 +5,13 @@
 //   height     1 where the height is in a range       slope     1 where the slope is in a range
 //   curvature  1 on crests or in hollows              noise     patches that cover a given part
 //   picture    one channel of a picture laid over the whole terrain
+//   map        a map of a step before, from 0 to 1 over a range of its values
 
 #include "terrain/operator.hpp"
 
 namespace wold {
 
-enum class MaskSource { height, slope, crests, hollows, noise, picture };
+enum class MaskSource { height, slope, crests, hollows, noise, picture, map };
 
 struct Mask {
   MaskSource from = MaskSource::slope;
@@ -24,7 +25,10 @@ struct Mask {
   float edge = 0.15F;            ///< softness of the edge of patches
   FilePath picture = {};
   std::string channel = {};
-  float smooth = 0;  ///< m
+  std::string map = {};      ///< as `map_over` finds it
+  Range map_range{0, 1};     ///< values of the map that become 0 and 1
+  bool logarithmic = false;  ///< of the map's values: for areas and flow, which span magnitudes
+  float smooth = 0;          ///< m
   bool invert = false;
 };
 

@@ -23,6 +23,9 @@ OperatorList terrain_operators() {
   const auto other = [](const Combine& parameters) {
     return std::vector<std::string>{parameters.with};
   };
+  const auto map_of = [](const auto& parameters) {
+    return std::vector<std::string>{parameters.map};
+  };
   return {
       terrain_operator(fbm, {.makes_ground = true}),
       terrain_operator(hybrid, {.makes_ground = true}),
@@ -43,7 +46,8 @@ OperatorList terrain_operators() {
       terrain_operator(smooth_floor),
       terrain_operator(power),
       terrain_operator(combine, {.references = other}),
-      terrain_operator(make_mask, {.reach = reach, .maps = {"mask"}}),
+      terrain_operator(add_map, {.map_references = map_of}),
+      terrain_operator(make_mask, {.reach = reach, .map_references = map_of, .maps = {"mask"}}),
   };
 }
 
