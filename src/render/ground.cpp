@@ -24,6 +24,7 @@ constexpr float crown_size = 9;
 constexpr float crown_height = 6;
 constexpr float wood_height = 11;
 constexpr float steepest_wood = 42;  // degrees
+constexpr double ripple_size = 1.2;  // m
 constexpr float least_footprint = 0.004F;
 
 float slope_degrees(Vec2 gradient) {
@@ -76,10 +77,11 @@ Description<GroundMaterial> describe(const GroundMaterial&) {
 }
 
 Ground::Ground(Heightfield field, Heightfield surroundings, GroundMaterial material,
-               std::uint64_t seed)
+               std::uint64_t seed, GroundDressing dressing)
     : field_(std::move(field)),
       surroundings_(std::move(surroundings)),
       material_(material),
+      dressing_(std::move(dressing)),
       widest_detail_(std::min(largest_detail, static_cast<float>(field_.cell) * 2)),
       detail_(texture(9, 0.95F), ground_seed(seed, 0)),
       edges_(texture(5), ground_seed(seed, 1)),
@@ -88,6 +90,7 @@ Ground::Ground(Heightfield field, Heightfield surroundings, GroundMaterial mater
       woods_(texture(6, 0.8F), ground_seed(seed, 7)),
       crowns_(Fractal{.kind = FractalKind::turbulence, .octaves = 3, .hurst = 1},
               ground_seed(seed, 8)),
+      ripples_(texture(4, 0.6F), ground_seed(seed, 10)),
       soil_({material.soil_color1, material.soil_color2, 0.35F, 1.1F}, ground_seed(seed, 4)),
       grass_({material.grass_color1, material.grass_color2, 0.8F, 0.9F}, ground_seed(seed, 5)),
       // Beds of rock: patches are wide and low.
@@ -131,6 +134,14 @@ float Ground::canopy_share(DVec2 place, float slope) const {
   return gentle * smoothstep(threshold - 0.05F, threshold + 0.05F, wood);
 }
 
+float Ground::detail_share(DVec2 place, float edge_noise) const {
+  float share = 1;
+  for (const CoverLayer& cover : dressing_.covers)
+    if (cover.settings().detail < 1)
+      share *= 1 - cover.share(place, edge_noise) * (1 - cover.settings().detail);
+  return share;
+}
+
 GroundSample Ground::with_detail(GroundSample s, DVec2 place, float spacing) const {
   const float canopy = canopy_share(place, slope_degrees(s.gradient));
   if (canopy > 0) {
@@ -143,14 +154,32 @@ GroundSample Ground::with_detail(GroundSample s, DVec2 place, float spacing) con
   const float rock =
       smoothstep(material_.rock_slope.low, material_.rock_slope.high, slope_degrees(s.gradient));
   const Sample2 n = detail_(place / static_cast<double>(widest_detail_), spacing / widest_detail_);
-  const float ratio = material_.detail * std::lerp(detail_ratio_soil, detail_ratio_rock, rock);
+  const float ratio = material_.detail * detail_share(place, 0) *
+                      std::lerp(detail_ratio_soil, detail_ratio_rock, rock);
   s.height += ratio * widest_detail_ * n.value;
   s.gradient += ratio * n.derivative;
   return s;
 }
 
+std::optional<float> Ground::water_level(DVec2 place) const {
+  if (dressing_.inner_water.contains(place)) return dressing_.inner_water.level_at(place);
+  return dressing_.outer_water.level_at(place);
+}
+
+float Ground::water_depth(DVec2 place) const {
+  const std::optional<float> level = water_level(place);
+  return level ? std::max(0.0F, *level - base(place).height) : 0.0F;
+}
+
 GroundSample Ground::detailed(DVec2 place, float spacing) const {
-  return with_detail(base(place), place, spacing);
+  const GroundSample land = with_detail(base(place), place, spacing);
+  const std::optional<float> level = water_level(place);
+  return level && *level > land.height ? GroundSample{*level, Vec2(0)} : land;
+}
+
+Vec3 Ground::water_normal(DVec2 place, float footprint) const {
+  const Sample2 n = ripples_(place / ripple_size, footprint / static_cast<float>(ripple_size));
+  return normal_of(dressing_.water.ripples * n.derivative);
 }
 
 Ground::Cover Ground::cover(DVec2 place, float footprint, const GroundSample& base,
@@ -184,22 +213,51 @@ Vec3 Ground::soil_and_grass(Vec3 p, float footprint, const Cover& c) const {
   return color * (1 + 0.25F * c.jitter);
 }
 
-GroundSurface Ground::surface(DVec2 place, float footprint) const {
-  const float width = std::max(footprint, least_footprint);
-  const GroundSample b = base(place);
-  const GroundSample s = with_detail(b, place, width);
+Vec3 Ground::bare_ground(Vec3 p, float footprint, const Cover& c) const {
+  Vec3 color(0);
+  if (c.rock < 1) color += (1 - c.rock) * soil_and_grass(p, footprint, c);
+  if (c.rock > 0) color += c.rock * (1 + 0.3F * c.grain) * rock_.at(p, footprint);
+  if (c.canopy > 0) color = glm::mix(color, canopy_.at(p, footprint), c.canopy);
+  return color;
+}
+
+GroundSurface Ground::land(DVec2 place, float width, const GroundSample& b,
+                           const GroundSample& s) const {
   const Vec3 p(Vec2(place), s.height);
   const Cover c = cover(place, width, b, s);
   GroundSurface out;
   out.normal = normal_of(s.gradient);
-  Vec3 color(0);
-  if (c.snow < 1) {
-    if (c.rock < 1) color += (1 - c.rock) * soil_and_grass(p, width, c);
-    if (c.rock > 0) color += c.rock * (1 + 0.3F * c.grain) * rock_.at(p, width);
-  }
-  if (c.canopy > 0) color = glm::mix(color, canopy_.at(p, width), c.canopy);
+  Vec3 color = c.snow < 1 ? bare_ground(p, width, c) : Vec3(0);
+  const auto lay = [&](bool over_snow) {
+    for (const CoverLayer& layer : dressing_.covers) {
+      if (layer.settings().over_snow != over_snow) continue;
+      const float share = layer.share(place, c.jitter + 0.5F * c.grain);
+      if (share <= 0) continue;
+      color = glm::mix(color, layer.color(p, width), share);
+      out.roughness = share > 0.5F ? layer.settings().roughness : out.roughness;
+    }
+  };
+  lay(false);
+  color = glm::mix(color, material_.snow_color, c.snow);
+  if (c.snow > 0.5F) out.roughness = 0;
+  lay(true);
   // Noise may brighten what is bright already beyond what a surface can reflect.
-  out.reflectance = glm::clamp(glm::mix(color, material_.snow_color, c.snow), 0.0F, 0.95F);
+  out.reflectance = glm::clamp(color, 0.0F, 0.95F);
+  return out;
+}
+
+GroundSurface Ground::surface(DVec2 place, float footprint) const {
+  const float width = std::max(footprint, least_footprint);
+  const GroundSample b = base(place);
+  const GroundSample s = with_detail(b, place, width);
+  GroundSurface out = land(place, width, b, s);
+  const std::optional<float> level = water_level(place);
+  if (!level || *level <= s.height) return out;
+  // Light goes down to the bed and up again.
+  const float shown = std::exp(-(*level - s.height) / dressing_.water.clarity);
+  out.reflectance = glm::mix(dressing_.water.color, out.reflectance, shown);
+  out.roughness = dressing_.water.roughness;
+  out.normal = water_normal(place, width);
   return out;
 }
 

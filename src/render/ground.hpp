@@ -5,12 +5,16 @@
 // Inside the scene's heightfield the height is its bicubic surface. Around it lies a coarser
 // heightfield, `surroundings`, lifted near the border so that both meet without a step; beyond that
 // the ground goes on at border height. Where the samples stand further apart than the features of
-// soil and stone, fBm adds them (`detail`), so that ground near the camera is not smooth.
+// soil and stone, fBm adds them (`detail`), so that ground near the camera is not smooth. Covers
+// (cover.hpp) lie on it where maps say so, and water (water.hpp) stands over it.
 
 #include <cstdint>
+#include <vector>
 
 #include "base/parameters.hpp"
+#include "render/cover.hpp"
 #include "render/material.hpp"
+#include "render/water.hpp"
 #include "terrain/heightfield.hpp"
 
 namespace wold {
@@ -44,12 +48,22 @@ Description<GroundMaterial> describe(const GroundMaterial&);
 struct GroundSurface {
   Vec3 normal{0, 0, 1};  ///< unit
   Vec3 reflectance{0};
+  float roughness = 0;  ///< of a clear coat; 0 for none
+};
+
+/// What lies on the land.
+struct GroundDressing {
+  std::vector<CoverLayer> covers = {};  ///< over one another in their order
+  WaterSettings water = {};
+  WaterLayer inner_water = {};  ///< over the field
+  WaterLayer outer_water = {};  ///< over the surroundings
 };
 
 class Ground {
  public:
   /// `surroundings` may be empty.
-  Ground(Heightfield field, Heightfield surroundings, GroundMaterial material, std::uint64_t seed);
+  Ground(Heightfield field, Heightfield surroundings, GroundMaterial material, std::uint64_t seed,
+         GroundDressing dressing = {});
 
   const Heightfield& field() const { return field_; }
   /// Square of ground that is modelled: the surroundings where there are any.
@@ -57,10 +71,13 @@ class Ground {
   DVec2 high() const { return high_; }
   Range height_range() const { return heights_; }
 
-  /// Height without detail, m, with gradient.
+  /// Height of the land without detail, m, with gradient.
   GroundSample base(DVec2 place) const;
-  /// Height and gradient with detail down to features of `spacing` metres.
+  /// Height and gradient with detail down to features of `spacing` metres: of the land, or of the
+  /// water over it.
   GroundSample detailed(DVec2 place, float spacing) const;
+  /// Depth of water over the land without detail, m; 0 where it is dry.
+  float water_depth(DVec2 place) const;
   /// Colours and normal for a footprint of `footprint` metres.
   GroundSurface surface(DVec2 place, float footprint) const;
 
@@ -78,10 +95,19 @@ class Ground {
   Cover cover(DVec2 place, float footprint, const GroundSample& base,
               const GroundSample& detailed) const;
   Vec3 soil_and_grass(Vec3 p, float footprint, const Cover& c) const;
+  Vec3 bare_ground(Vec3 p, float footprint, const Cover& c) const;
+  /// Colours and normal of the land alone.
+  GroundSurface land(DVec2 place, float footprint, const GroundSample& base,
+                     const GroundSample& detailed) const;
+  std::optional<float> water_level(DVec2 place) const;
+  Vec3 water_normal(DVec2 place, float footprint) const;
+  /// Share of the small features that covers let through.
+  float detail_share(DVec2 place, float edge_noise) const;
 
   Heightfield field_;
   Heightfield surroundings_;
   GroundMaterial material_;
+  GroundDressing dressing_;
   float widest_detail_;  // m
   FractalSampler detail_;
   FractalSampler edges_;
@@ -89,6 +115,7 @@ class Ground {
   FractalSampler patches_;
   FractalSampler woods_;
   FractalSampler crowns_;
+  FractalSampler ripples_;
   TwoColorTexture soil_;
   TwoColorTexture grass_;
   TwoColorTexture rock_;

@@ -90,6 +90,7 @@ SurfacePoint ground_surface(const World& world, const Hit& hit, Vec3 view_direct
       world.ground.surface(DVec2(hit.position.x, hit.position.y), footprint);
   s.normal = ground.normal;
   s.reflectance = ground.reflectance;
+  s.roughness = ground.roughness;
   return s;
 }
 

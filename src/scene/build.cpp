@@ -12,6 +12,7 @@
 #include "plants/plant.hpp"
 #include "render/ground_mesh.hpp"
 #include "scene/planting.hpp"
+#include "scene/scene_maps.hpp"
 
 namespace wold {
 
@@ -46,12 +47,46 @@ TerrainWindow surrounding_window(const Scene& scene, const TerrainWindow& inner)
   return window;
 }
 
-Heightfield build_surroundings(const Scene& scene, Progress& progress) {
+TerrainResult build_surroundings(const Scene& scene, Progress& progress) {
   if (scene.surroundings.factor <= 1) return {};
   const TerrainWindow window = surrounding_window(scene, window_of(scene.terrain));
   return evaluate(scene.terrain, window, scene.steps, scene_operators(), scene.header.seed,
-                  scene.folder, progress)
-      .field;
+                  scene.folder, progress);
+}
+
+std::vector<CoverLayer> build_covers(const Scene& scene, const TerrainResult& terrain,
+                                     const TerrainResult& around, Progress& progress) {
+  const TerrainDomain place{terrain.field.origin, terrain.field.size()};
+  std::vector<CoverLayer> layers;
+  for (const GroundCover& cover : scene.covers) {
+    const std::string& map = cover.map.path;
+    Heightfield inner = scene_map(scene, map, terrain.field, terrain.maps, place, progress);
+    Heightfield outer;
+    if (around.maps.contains(map))
+      outer = {around.maps.at(map), around.field.origin, around.field.cell};
+    const auto seed = static_cast<std::uint32_t>(
+        random_bits(scene.header.seed, hash_text(std::string_view("cover")), layers.size()));
+    layers.emplace_back(cover, std::move(inner), std::move(outer), seed);
+  }
+  return layers;
+}
+
+WaterLayer build_water(const Scene& scene, const TerrainResult& ground, const Grid<float>& depth) {
+  return depth.empty() ? WaterLayer() : WaterLayer(ground.field, depth, scene.water.least_depth);
+}
+
+GroundDressing dress(const Scene& scene, const TerrainResult& terrain, const TerrainResult& around,
+                     Progress& progress) {
+  GroundDressing dressing;
+  dressing.covers = build_covers(scene, terrain, around, progress);
+  dressing.water = scene.water;
+  const std::string& map = scene.water.depth.path;
+  const TerrainDomain place{terrain.field.origin, terrain.field.size()};
+  dressing.inner_water = build_water(
+      scene, terrain, scene_map(scene, map, terrain.field, terrain.maps, place, progress).height);
+  if (around.maps.contains(map))
+    dressing.outer_water = build_water(scene, around, around.maps.at(map));
+  return dressing;
 }
 
 /// Chooses among the views of the ground and of what can be a landmark.
@@ -100,6 +135,12 @@ GroundMaterial ground_material(const Scene& scene) {
   return material;
 }
 
+void check_cover(const Scene& scene, const GroundCover& cover, const OperatorList& operators) {
+  if (cover.map.empty())
+    throw Error(ErrorKind::input, "a [[cover]] needs a map, such as map = \"rivers.water\"");
+  check_map(scene, cover.map.path, "map", operators);
+}
+
 }  // namespace
 
 void check_scene(const Scene& scene) {
@@ -122,7 +163,11 @@ void check_scene(const Scene& scene) {
     at(fmt::format("species.{}.plant", k),
        [&] { load_plant(find_scene_file(scene.species[k].plant.path, scene.folder).string()); });
   for (std::size_t k = 0; k < scene.scatter.size(); ++k)
-    at(fmt::format("scatter.{}.mask", k), [&] { check_mask(scene, scene.scatter[k], operators); });
+    at(fmt::format("scatter.{}.mask", k),
+       [&] { check_map(scene, scene.scatter[k].mask.path, "mask", operators); });
+  at("water.depth", [&] { check_map(scene, scene.water.depth.path, "map", operators); });
+  for (std::size_t k = 0; k < scene.covers.size(); ++k)
+    at(fmt::format("cover.{}.map", k), [&] { check_cover(scene, scene.covers[k], operators); });
   at("sky.sun", [&] { const Sky sky(scene.sky); });
   for (std::size_t k = 0; k < scene.cameras.size(); ++k)
     at(fmt::format("camera.{}", k), [&] { check_camera(scene.cameras[k]); });
@@ -139,26 +184,30 @@ BuiltScene build(const Scene& scene, const std::string& camera, Progress& progre
   BuiltScene built;
   TerrainResult terrain =
       timed(built.seconds, "terrain", [&] { return build_terrain(scene, progress); });
-  Heightfield around =
+  TerrainResult around =
       timed(built.seconds, "terrain", [&] { return build_surroundings(scene, progress); });
+  GroundDressing dressing = dress(scene, terrain, around, progress);
   built.maps = std::move(terrain.maps);
 
   PlantModels models =
       timed(built.seconds, "plants", [&] { return build_models(scene, progress); });
-  built.world = std::make_unique<World>(World{Ground(std::move(terrain.field), std::move(around),
-                                                     ground_material(scene), scene.header.seed),
-                                              std::move(models.materials),
-                                              std::move(models.list),
-                                              {},
-                                              Sky(scene.sky)});
+  built.world = std::make_unique<World>(
+      World{Ground(std::move(terrain.field), std::move(around.field), ground_material(scene),
+                   scene.header.seed, std::move(dressing)),
+            std::move(models.materials),
+            std::move(models.list),
+            {},
+            Sky(scene.sky)});
 
   built.models = timed(built.seconds, "ray tracer",
                        [&] { return std::make_unique<ModelTrees>(built.world->models, progress); });
   const Planter planter(scene, built.world->ground.field(), built.maps);
+  const Ground& ground = built.world->ground;
   const auto plant = [&](Planting which) {
     timed(built.seconds, "scatter", [&] {
       const DVec2 eye(built.camera.position.x, built.camera.position.y);
       for (const Instance& p : planter.plants(which, eye, progress)) {
+        if (ground.water_depth(DVec2(p.position.x, p.position.y)) > 0) continue;
         built.world->instances.push_back({p.position, p.up, p.yaw, p.scale,
                                           models.first_model[p.species] + p.model, p.individual});
         ++built.plants[scene.species[p.species].name];

@@ -1,5 +1,7 @@
 #include "scene/planting.hpp"
 
+#include "scene/scene_maps.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -71,29 +73,6 @@ class Materials {
 
 }  // namespace
 
-void check_mask(const Scene& scene, const ScatterSettings& settings,
-                const OperatorList& operators) {
-  const std::string& mask = settings.mask.path;
-  if (mask.empty()) return;
-  std::vector<std::string> known;
-  for (const TerrainStep& step : scene.steps) {
-    if (!step.settings.enabled) continue;
-    for (const std::string& map : find_operator(operators, step.op, step.location).maps) {
-      known.push_back(map);
-      if (!step.settings.name.empty())
-        known.push_back(map == "mask" ? step.settings.name : step.settings.name + "." + map);
-    }
-  }
-  if (std::find(known.begin(), known.end(), mask) != known.end()) return;
-  if (std::filesystem::path(mask).has_extension()) {
-    find_scene_file(mask, scene.folder);
-    return;
-  }
-  throw Error(ErrorKind::input,
-              fmt::format("mask '{}' is neither a map of the terrain's steps nor a picture.{}",
-                          mask, suggestion(mask, known)));
-}
-
 PlantModels build_models(const Scene& scene, Progress& progress) {
   Materials materials(scene);
   std::vector<SpeciesSettings> settings = scene.species;
@@ -115,21 +94,6 @@ PlantModels build_models(const Scene& scene, Progress& progress) {
   return models;
 }
 
-/// A map that a terrain step made, or a picture over the whole terrain; empty when none is asked
-/// for.
-Heightfield Planter::mask_of(const ScatterSettings& settings, Progress& progress) const {
-  if (settings.mask.empty()) return {};
-  Heightfield mask = field_;
-  if (const auto map = maps_.find(settings.mask.path); map != maps_.end()) {
-    mask.height = map->second;
-  } else {
-    const auto file = find_scene_file(settings.mask.path, scene_.folder);
-    mask.height =
-        picture_over(file, "", TerrainDomain{field_.origin, field_.size()}, field_, progress);
-  }
-  return mask;
-}
-
 std::vector<Instance> Planter::plants(Planting which, DVec2 camera, Progress& progress) const {
   const bool near_camera = which == Planting::near_camera;
   std::vector<Instance> all;
@@ -142,7 +106,8 @@ std::vector<Instance> Planter::plants(Planting which, DVec2 camera, Progress& pr
   for (std::size_t k = 0; k < scene_.scatter.size(); ++k) {
     const ScatterSettings& settings = scene_.scatter[k];
     if ((settings.where.within > 0) != near_camera) continue;
-    const Heightfield mask = mask_of(settings, progress);
+    const Heightfield mask = scene_map(scene_, settings.mask.path, field_, maps_,
+                                       TerrainDomain{field_.origin, field_.size()}, progress);
     ScatterPlace place;
     place.low = field_.origin;
     place.high = field_.origin + field_.size();

@@ -22,10 +22,6 @@ struct PlantModels {
 /// not there.
 PlantModels build_models(const Scene& scene, Progress& progress);
 
-/// Throws Error(input) when a scatter's mask is neither a map that a step makes nor a picture that
-/// is there.
-void check_mask(const Scene& scene, const ScatterSettings& settings, const OperatorList& operators);
-
 /// The plants that stand around the camera, or those that stand without regard to it.
 enum class Planting { everywhere, near_camera };
 
@@ -41,8 +37,6 @@ class Planter {
   std::vector<Instance> plants(Planting which, DVec2 camera, Progress& progress) const;
 
  private:
-  Heightfield mask_of(const ScatterSettings& settings, Progress& progress) const;
-
   const Scene& scene_;
   const Heightfield& field_;
   const std::map<std::string, Grid<float>>& maps_;

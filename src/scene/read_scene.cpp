@@ -175,9 +175,11 @@ Scene scene_of(const toml::table& root, const std::string& source,
                    [&](const toml::table& table) { scene.steps.push_back(read_step(table)); });
   read_section(root, "surroundings", scene.surroundings, places);
   read_section(root, "ground", scene.ground, places);
+  read_section(root, "water", scene.water, places);
   read_section(root, "sky", scene.sky, places);
   read_section(root, "render", scene.render, places);
   read_section(root, "picture", scene.picture, places);
+  read_sections(root, "cover", scene.covers, places);
   read_sections(root, "material", scene.materials, places);
   read_sections(root, "species", scene.species, places);
   read_sections(root, "scatter", scene.scatter, places);
@@ -234,6 +236,8 @@ std::vector<SceneSection> scene_sections() {
       {"terrain", false, Described::of(TerrainSettings{})},
       {"surroundings", false, Described::of(Surroundings{})},
       {"ground", false, Described::of(GroundMaterial{})},
+      {"cover", true, Described::of(GroundCover{})},
+      {"water", false, Described::of(WaterSettings{})},
       {"material", true, Described::of(Material{})},
       {"species", true, Described::of(SpeciesSettings{})},
       {"scatter", true, Described::of(ScatterSettings{})},

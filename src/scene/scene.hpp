@@ -19,9 +19,11 @@
 #include "forest/species.hpp"
 #include "image/tonemap.hpp"
 #include "render/auto_camera.hpp"
+#include "render/cover.hpp"
 #include "render/ground.hpp"
 #include "render/material.hpp"
 #include "render/render.hpp"
+#include "render/water.hpp"
 #include "sky/sky.hpp"
 #include "terrain/steps.hpp"
 
@@ -49,6 +51,8 @@ struct Scene {
   std::vector<TerrainStep> steps;
   Surroundings surroundings;
   GroundMaterial ground;
+  std::vector<GroundCover> covers;
+  WaterSettings water;
   std::vector<Material> materials;
   std::vector<SpeciesSettings> species;
   std::vector<ScatterSettings> scatter;
