@@ -3,8 +3,10 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -14,9 +16,13 @@
 #include "cli/height_input.hpp"
 #include "cli/outputs.hpp"
 #include "cli/session.hpp"
+#include "image/atomic_file.hpp"
+#include "mesh/editable.hpp"
+#include "mesh/io.hpp"
 #include "scene/scene.hpp"
 #include "terrain/analysis.hpp"
 #include "terrain/export.hpp"
+#include "terrain/mesh_field.hpp"
 
 namespace wold {
 
@@ -32,8 +38,58 @@ struct ErodeOptions {
   bool map_pictures = false;
   std::string preview;
   double cell = 0;
+  std::string up = "z";
+  ProjectionSettings projection;
   HeightInputOptions height;
 };
+
+/// What is eroded: ground from a height map, or a mesh seen from above.
+struct Subject {
+  Heightfield field;
+  std::optional<Range> range;  ///< m, of the integers of a picture
+  std::optional<EditableMesh> mesh;
+  std::optional<MeshProjection> projection;
+};
+
+bool is_mesh(const std::string& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".gltf" || std::find(mesh_extensions().begin(), mesh_extensions().end(),
+                                           extension) != mesh_extensions().end();
+}
+
+/// Metres of a unit of the mesh, so that it is `size` metres wide.
+double mesh_scale(const EditableMesh& mesh, const std::string& size) {
+  if (size.empty()) return 1;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const DVec3& p : mesh.positions()) {
+    low = std::min(low, p.x);
+    high = std::max(high, p.x);
+  }
+  return high > low ? width_of(size) / (high - low) : 1;
+}
+
+Subject read_mesh_subject(const ErodeOptions& options, const Session& session) {
+  Subject subject;
+  subject.mesh = EditableMesh::read(options.input, options.up == "y" ? UpAxis::y : UpAxis::z);
+  ProjectionSettings settings = options.projection;
+  settings.scale = mesh_scale(*subject.mesh, options.height.size);
+  Progress progress = session.progress();
+  subject.projection.emplace(subject.mesh->positions(), subject.mesh->triangles(), settings,
+                             progress);
+  subject.field = subject.projection->field();
+  session.say(fmt::format("{}: {} vertices, projected onto {} x {} samples, {:.4g} m apart",
+                          options.input, subject.mesh->positions().size(),
+                          subject.field.height.width(), subject.field.height.height(),
+                          subject.field.cell));
+  return subject;
+}
+
+Subject read_subject(const ErodeOptions& options, const Session& session) {
+  if (is_mesh(options.input)) return read_mesh_subject(options, session);
+  HeightInput input = read_height_input(options.input, options.height, session);
+  return {std::move(input.field), input.range, std::nullopt, std::nullopt};
+}
 
 /// A scene of nothing but the steps that --op names.
 std::string steps_text(const std::vector<std::string>& operators) {
@@ -62,7 +118,7 @@ class ErodeRun {
 
   void run() {
     prepare();
-    const HeightInput input = read_height_input(options_.input, options_.height, session_);
+    const Subject input = read_subject(options_, session_);
     Progress progress = session_.progress();
     const auto start = std::chrono::steady_clock::now();
     const TerrainResult result = evaluate_on(input.field, scene_.steps, scene_operators(),
@@ -84,9 +140,16 @@ class ErodeRun {
     }
     if (options_.outputs.empty())
       throw Error(ErrorKind::usage, "say where the result goes, as with -o eroded.exr");
-    for (const std::string& output : options_.outputs) check_export(output);
+    for (const std::string& output : options_.outputs) check_output(output);
     check_map_folder(options_.maps);
     check_preview(options_.preview);
+  }
+
+  void check_output(const std::string& output) const {
+    if (is_mesh(options_.input) && is_mesh(output))
+      check_editable_writable(options_.input, output);
+    else
+      check_export(output);
   }
 
   Scene scene_of_operators() const {
@@ -101,10 +164,15 @@ class ErodeRun {
     return scene;
   }
 
-  void write(const TerrainResult& result, const HeightInput& before, double seconds) const {
+  void write(const TerrainResult& result, const Subject& before, double seconds) const {
     const std::optional<Range> range = range_for(result.field, before.range);
     std::vector<ExportReport> reports;
+    Json meshes = Json::array();
     for (const std::string& output : options_.outputs) {
+      if (before.mesh && is_mesh(output)) {
+        meshes.push_back(write_moved(before, result.field, output));
+        continue;
+      }
       reports.push_back(export_heightfield(result.field, output, {.range = range}));
       session_.say(told(reports.back()));
     }
@@ -114,7 +182,18 @@ class ErodeRun {
     if (!maps.empty()) session_.say(fmt::format("wrote {}", fmt::join(maps, ", ")));
     if (!options_.preview.empty()) write_preview(options_.preview, result.field);
     tell_balances(result.balances);
-    report(result, before.field, reports, maps, seconds);
+    report(result, before.field, reports, meshes, maps, seconds);
+  }
+
+  /// The mesh with its vertices moved as the ground beneath them was.
+  Json write_moved(const Subject& subject, const Heightfield& after,
+                   const std::string& output) const {
+    EditableMesh mesh = *subject.mesh;
+    const std::size_t moved = subject.projection->displace(mesh.positions(), after);
+    mesh.write(output);
+    session_.say(fmt::format("wrote {}: {} of {} vertices lie on the surface and moved with it",
+                             output, moved, mesh.positions().size()));
+    return {{"path", output}, {"vertices", mesh.positions().size()}, {"on_surface", moved}};
   }
 
   /// Integers keep the meaning that they had in the input, if all heights still fit.
@@ -137,8 +216,8 @@ class ErodeRun {
   }
 
   void report(const TerrainResult& result, const Heightfield& before,
-              const std::vector<ExportReport>& reports, const std::vector<std::string>& maps,
-              double seconds) const {
+              const std::vector<ExportReport>& reports, const Json& meshes,
+              const std::vector<std::string>& maps, double seconds) const {
     const auto heights = [](const Heightfield& field) {
       const HeightStatistics s = height_statistics(field);
       return Json{{"min", s.min}, {"max", s.max}, {"mean", s.mean}};
@@ -153,6 +232,7 @@ class ErodeRun {
                     {"steps", steps},
                     {"seed", scene_.header.seed},
                     {"files", files},
+                    {"meshes", meshes},
                     {"maps", maps},
                     {"size_metres", {result.field.size().x, result.field.size().y}},
                     {"cell", result.field.cell},
@@ -173,16 +253,19 @@ class ErodeRun {
 
 void add_erode(CLI::App& app, Session& session) {
   auto options = std::make_shared<ErodeOptions>();
-  CLI::App* command = app.add_subcommand("erode", "Erode a height map of your own");
+  CLI::App* command = app.add_subcommand("erode", "Erode a height map or a mesh of your own");
   command
-      ->add_option("height", options->input,
-                   "The height map: .exr .tif .png .r16, or elevation data (GeoTIFF, .hgt)")
+      ->add_option(
+          "height", options->input,
+          "The height map: .exr .tif .png .r16, elevation data (GeoTIFF, .hgt), or a mesh: "
+          ".obj .ply .glb .gltf")
       ->required()
       ->type_name("HEIGHT");
   command
       ->add_option("-o,--output", options->outputs,
                    "File to write: .exr .tif (metres), .png .r16 .raw (16 bits), .obj .ply .glb "
-                   "(mesh); may be given more than once")
+                   "(mesh; of a mesh the same one with its vertices moved); may be given more than "
+                   "once")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command
@@ -193,6 +276,15 @@ void add_erode(CLI::App& app, Session& session) {
   command->add_option("--steps", options->steps, "Do the [[terrain.step]]s of a scene file instead")
       ->type_name("SCENE");
   options->height.add_to(*command);
+  command->add_option("--up", options->up, "The upward axis of an OBJ or PLY mesh; glTF is Y up")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->type_name("AXIS");
+  command
+      ->add_option("--resolution", options->projection.resolution,
+                   "Samples along the longer side that a mesh is projected onto; default: as it "
+                   "has vertices")
+      ->check(CLI::Range(2, 65537))
+      ->type_name("N");
   command
       ->add_option("--mask", options->mask, "Picture over the map: where it is white, all is done")
       ->type_name("FILE");

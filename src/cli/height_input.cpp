@@ -87,6 +87,11 @@ void HeightInputOptions::add_to(CLI::App& command) {
       ->type_name("METRES");
 }
 
+double width_of(const std::string& size) {
+  const DVec2 both = size_of(size);
+  return both.x;
+}
+
 HeightInput read_height_input(const std::string& path, const HeightInputOptions& options,
                               const Session& session) {
   ElevationOptions reading;

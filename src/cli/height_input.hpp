@@ -21,6 +21,9 @@ struct HeightInputOptions {
   void add_to(CLI::App& command);
 };
 
+/// Metres west to east of --size. Throws Error(usage).
+double width_of(const std::string& size);
+
 struct HeightInput {
   Heightfield field;
   std::optional<Range> range;  ///< m, of black and white, if it was a picture of integers
