@@ -1,5 +1,5 @@
+#include "../fuzzing.hpp"
 #include "base/value.hpp"
-#include "fuzzing.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace wold;

@@ -1,4 +1,4 @@
-#include "fuzzing.hpp"
+#include "../fuzzing.hpp"
 #include "image/io.hpp"
 
 // The library keeps its last message for each thread, and does not give it back.

@@ -1,6 +1,6 @@
 #include <cstring>
 
-#include "fuzzing.hpp"
+#include "../fuzzing.hpp"
 #include "image/io.hpp"
 
 // The first eight bytes are the width and the height that the caller asks for.

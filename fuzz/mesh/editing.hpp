@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "fuzzing.hpp"
+#include "../fuzzing.hpp"
 #include "mesh/editable.hpp"
 
 namespace wold::fuzzing {

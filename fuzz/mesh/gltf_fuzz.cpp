@@ -1,4 +1,4 @@
-#include "fuzzing.hpp"
+#include "../fuzzing.hpp"
 #include "mesh/gltf.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,4 +1,4 @@
-#include "fuzzing.hpp"
+#include "../fuzzing.hpp"
 #include "scene/scene.hpp"
 
 // Behind a zero byte stands a value from the command line, "path=value".

@@ -1,6 +1,6 @@
 #include <array>
 
-#include "fuzzing.hpp"
+#include "../fuzzing.hpp"
 #include "terrain/elevation.hpp"
 
 // The first byte chooses the extension.
