@@ -189,10 +189,10 @@ void DropletWalk::carry_colors(int first, int count, const DropletChanges& chang
     Vec3& skin = colors.skin[sample];
     const auto amount = static_cast<float>(std::abs(change));
     if (change < 0) {
+      const float of_skin = std::min(amount, colors.depth);
       taken += amount;
-      sum += amount * skin;
-      const float fresh = std::min(1.0F, amount / colors.depth);
-      skin += fresh * (colors.beneath[sample] - skin);
+      sum += of_skin * skin + (amount - of_skin) * colors.beneath[sample];
+      skin += of_skin / colors.depth * (colors.beneath[sample] - skin);
     } else if (change > 0) {
       skin += amount / (amount + colors.depth) * (carried - skin);
     }

@@ -47,7 +47,8 @@ DropletTiles::DropletTiles(const Heightfield& input, int side, const Grid<float>
   const int margin = side / 2;  // tiles of one colour lie `side` apart
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns_; ++i) {
-      by_color_[(j % 2) * 2 + i % 2].push_back(static_cast<int>(tiles_.size()));
+      by_color_[static_cast<std::size_t>(j) % 2 * 2 + static_cast<std::size_t>(i) % 2].push_back(
+          static_cast<int>(tiles_.size()));
       Tile tile;
       tile.place = {i, j};
       tile.region = {std::max(0, i * side - margin), std::max(0, j * side - margin),
@@ -109,7 +110,9 @@ void DropletTiles::hand_over() {
   for (Tile& tile : tiles_) {
     for (const Drop& drop : tile.tally.leaving) {
       const IVec2 place = drop.cell / side_;
-      tiles_[static_cast<std::size_t>(place.y * columns_ + place.x)].waiting.push_back(drop);
+      tiles_[static_cast<std::size_t>(place.y) * static_cast<std::size_t>(columns_) +
+             static_cast<std::size_t>(place.x)]
+          .waiting.push_back(drop);
     }
     removed += tile.tally.removed;
     steps += tile.tally.steps;

@@ -68,7 +68,7 @@ HWY_INLINE Four transposed(const Four& v) {
 
 HWY_INLINE Four load_blocks(const DropletBlocks& blocks, int k) {
   const Ints i;
-  const std::int32_t* part = &blocks[static_cast<std::size_t>(4 * k)];
+  const std::int32_t* part = &blocks[4 * static_cast<std::size_t>(k)];
   const std::size_t n = hn::Lanes(i);
   return transposed({hn::Load(i, part), hn::Load(i, part + n), hn::Load(i, part + 2 * n),
                      hn::Load(i, part + 3 * n)});
@@ -77,7 +77,7 @@ HWY_INLINE Four load_blocks(const DropletBlocks& blocks, int k) {
 HWY_INLINE void store_blocks(const Four& values, DropletBlocks& blocks, int k) {
   const Ints i;
   const Four v = transposed(values);
-  std::int32_t* part = &blocks[static_cast<std::size_t>(4 * k)];
+  std::int32_t* part = &blocks[4 * static_cast<std::size_t>(k)];
   const std::size_t n = hn::Lanes(i);
   hn::Store(v.a, i, part);
   hn::Store(v.b, i, part + n);

@@ -15,9 +15,14 @@
 //   v² ← v² e^(-2 k L) + 2 g_e S L;  at most v_max                       k: drag, 1/m
 //   w  ← w e^(-e L)                                                      e: evaporation, 1/m
 //
-// It ends when it leaves the ground, when it stands still with nothing to lay down, or after
-// `distance`; what it then carries is laid down there, or leaves. All rates are per metre, so paths
-// and amounts do not depend on the distance of samples.
+// then d turns by a random angle of at most `scatter`. It ends when it leaves the ground, when it
+// stands still with nothing to lay down, or after `distance`; what it then carries is laid down
+// there, or leaves. All rates are per metre, so paths and amounts do not depend on the distance of
+// samples.
+//
+// Between showers of drops, banks that they cut steeper than `bank_slope` slide (ground that was as
+// steep before stays), and what was laid down creeps: it spreads by about `creep` until the end.
+// Without, gullies become slots and plains get ripples.
 //
 // `variant = "momentum"` is the other model of the sources: the drop has a velocity (a vector)
 // which the ground accelerates along each axis, unless the step is larger than `max_drop`, and
@@ -25,7 +30,11 @@
 //
 //   H. T. Beyer, "Implementation of a method for hydraulic erosion", bachelor's thesis, Technische
 //   Universität München, 2015. There the step is "one cell" and its rates are per step; its rule
-//   for the speed, v² + Δh g with Δh negative downhill, has the wrong sign.
+//   for the speed, v² + Δh g with Δh negative downhill, has the wrong sign, and misses a 2.
+//
+// Colours: the ground has a skin `color_depth` deep, mixed within; a drop takes its colour along
+// with the ground, and what lay beneath (the picture's colour) comes into the skin; what it lays
+// down mixes with the skin, the lowest part of which is buried. Brush and slides do not move them.
 //
 // Scheme. Heights and sediment are integers (of about a micrometre): what leaves one is added to
 // the other, so nothing is lost. The ground is cut into square tiles in four colours (2 x 2). Tiles

@@ -30,7 +30,7 @@ Heightfield plane() {
 
 /// What a single drop leaves behind.
 struct Walk {
-  explicit Walk(const Droplets& parameters)
+  explicit Walk(const Droplets& parameters, DropletColors* colors = nullptr)
       : field(plane()), ground(field), passes(field.height.size()), speed(field.height.size()) {
     const DropletRates rates = droplet_rates(parameters, cell, ground.quantum());
     DropletWorld world;
@@ -39,6 +39,7 @@ struct Walk {
     world.cells = ground.cells();
     world.passes = passes.data();
     world.speed = speed.data();
+    world.colors = colors;
     Drop drop;
     drop.cell = {static_cast<int>(start_x), start_y};
     drop.fraction = {start_x - std::floor(start_x), 0};
@@ -154,6 +155,25 @@ TEST(DropletWalk, DropLaysDownNoHigherThanItCameFrom) {
   EXPECT_DOUBLE_EQ(walk.gained() + walk.removed(), 0);
   const auto h = [&](int i) { return walk.ground.cells()[walk.sample(i, start_y)].height; };
   for (int i = 1; i < width; ++i) EXPECT_LE(h(i), h(i - 1)) << "a dam at " << i;
+}
+
+TEST(DropletWalk, ColorsAreTakenAsTheGroundIs) {
+  Droplets p = frictionless();
+  p.deposition = 0;
+  DropletColors colors;  // red in the west, blue in the east
+  for (int k = 0; k < width * height; ++k)
+    colors.skin.push_back(k % width < width / 2 ? Vec3(1, 0, 0) : Vec3(0, 0, 1));
+  colors.beneath = colors.skin;
+  colors.depth = 10;  // quanta: more is taken at once
+  Walk walk(p, &colors);
+  double red = 0;
+  double blue = 0;
+  for (int k = 0; k < width * height; ++k)
+    (k % width < width / 2 ? red : blue) += walk.ground.cells()[k].wear;
+  ASSERT_GT(red, 1000);
+  EXPECT_NEAR(static_cast<double>(walk.tally.color_removed.r), red, 1e-4 * (red + blue));
+  EXPECT_NEAR(static_cast<double>(walk.tally.color_removed.b), blue, 1e-4 * (red + blue));
+  EXPECT_EQ(walk.tally.color_removed.g, 0);
 }
 
 TEST(DropletWalk, WithoutCapacityNothingIsTaken) {

@@ -34,6 +34,14 @@ TerrainResult run_with(const Heightfield& input, const Droplets& parameters,
   return droplets(input, parameters, context);
 }
 
+/// Red in the west, blue in the east.
+void write_halves(const std::string& path) {
+  Grid<Vec3> picture(64, 64);
+  for (int j = 0; j < 64; ++j)
+    for (int i = 0; i < 64; ++i) picture(i, j) = i < 32 ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
+  write_exr(path, image_of(picture));
+}
+
 void expect_balanced(const TerrainResult& result) {
   ASSERT_EQ(result.balances.size(), 1U);
   const Balance& ground = result.balances.front();
@@ -91,11 +99,14 @@ TEST(Droplets, SameBitsForAnyThreads) {
   const std::map<std::string, Grid<float>> maps{{"hard", Grid<float>(193, 193, 0.3F)}};
   Droplets p;
   p.rain = 0.06F;
+  const testing_terrain::TemporaryFolder folder;
+  write_halves(folder.file("halves.exr"));
+  p.color = {"halves.exr"};
   p.hardness = "hard";
   std::vector<TerrainResult> results;
   for (const int threads : {1, 2, 4, 4}) {
     const ThreadLimit limit(threads);
-    results.push_back(run_with(input, p, maps));
+    results.push_back(run_with(input, p, maps, folder.path()));
   }
   for (const TerrainResult& other : results) {
     EXPECT_EQ(other.field.height, results.front().field.height);
@@ -222,12 +233,8 @@ TEST(Droplets, AnyShapeWorks) {
 }
 
 TEST(Droplets, ColorGoesWithTheGround) {
-  // Red upper half (west), blue lower half.
   const testing_terrain::TemporaryFolder folder;
-  Grid<Vec3> picture(64, 64);
-  for (int j = 0; j < 64; ++j)
-    for (int i = 0; i < 64; ++i) picture(i, j) = i < 32 ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
-  write_exr(folder.file("halves.exr"), image_of(picture));
+  write_halves(folder.file("halves.exr"));
   const Heightfield input = field_of(65, 65, 10, DVec2(0), [](DVec2 p) {
     return 300 * std::exp(-p.x / 200) + 3 * std::sin(p.y * 0.05);
   });
