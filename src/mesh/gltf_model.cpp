@@ -26,6 +26,36 @@ bool ignore_image(tinygltf::Image*, const int, std::string*, std::string*, int, 
   return true;
 }
 
+/// The JSON of a file, binary or text.
+std::string_view json_of(std::string_view bytes, bool binary) {
+  constexpr std::size_t begin = 20;  // behind the head of the file and of its first chunk
+  if (!binary || bytes.size() < begin) return bytes;
+  std::uint32_t size = 0;
+  std::memcpy(&size, bytes.data() + 12, sizeof(size));
+  return bytes.substr(begin, size);
+}
+
+/// Whether brackets stand within brackets deeper than the library, which calls itself for each,
+/// can follow.
+bool is_too_deep(std::string_view json) {
+  constexpr int deepest = 512;
+  int depth = 0;
+  bool in_text = false;
+  for (std::size_t k = 0; k < json.size(); ++k) {
+    const char c = json[k];
+    if (in_text && c == '\\') {
+      ++k;
+    } else if (c == '"') {
+      in_text = !in_text;
+    } else if (!in_text && (c == '[' || c == '{')) {
+      if (++depth > deepest) return true;
+    } else if (!in_text && (c == ']' || c == '}')) {
+      --depth;
+    }
+  }
+  return false;
+}
+
 DMat4 transform_of(const tinygltf::Node& node) {
   DMat4 m(1);
   if (node.matrix.size() == 16) {
@@ -52,6 +82,7 @@ GltfModel::GltfModel(std::string_view bytes, const std::string& file) : file_(fi
   const auto size = static_cast<unsigned>(bytes.size());
   const std::string folder = std::filesystem::path(file).parent_path().string();
   const bool binary = bytes.starts_with("glTF");
+  if (is_too_deep(json_of(bytes, binary))) fail("its JSON is nested too deeply");
   const bool loaded =
       binary
           ? loader.LoadBinaryFromMemory(&model_, &error, &warning,

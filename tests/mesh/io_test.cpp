@@ -139,6 +139,16 @@ TEST_F(MeshIo, GltfTransformsOfNodesAreApplied) {
   expect_contains(error_of([&] { read_mesh(path("a.gltf")); }), "reaches beyond its buffer");
 }
 
+TEST_F(MeshIo, GltfNestedWithoutEndIsRefused) {
+  const std::size_t depth = 300'000;
+  const std::string json = R"({"asset":{"version":"2.0"},"extras":)" + std::string(depth, '[') +
+                           std::string(depth, ']') + "}";
+  expect_contains(error_of([&] { parse_gltf(json, "a.gltf"); }), "nested too deeply");
+  const std::string text =
+      R"({"asset":{"version":"2.0","generator":"\"[)" + std::string(depth, '[') + R"("}})";
+  EXPECT_TRUE(parse_gltf(text, "a.gltf").triangles.empty());
+}
+
 TEST_F(MeshIo, ObjOfOthersIsRead) {
   const TriangleMesh mesh = parse_obj(
       "o box\r\nv 0 0 0\r\nv +1 0 0 1.0\r\nv 1 1e0 0\r\nv 0 1 0\r\nvt 0 0\n\nusemtl a\n"
