@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -57,6 +58,17 @@ PngChunks png_chunks(const std::string& path) {
 Error damaged(const std::string& path, const std::string& why) {
   return {ErrorKind::input,
           fmt::format("'{}' is damaged or cut short ({})", path, first_line(why))};
+}
+
+/// A few bytes may announce a picture that fills the memory. Deflate packs up to 1032 bytes into
+/// one, and a pixel of one bit may become three channels of a byte.
+void check_png_size(const std::string& path, const oiio::ImageSpec& spec) {
+  constexpr double most = 1032 * 24;
+  std::error_code error;
+  const auto size = static_cast<double>(std::filesystem::file_size(path, error));
+  if (!error && static_cast<double>(spec.image_bytes(true)) > most * size)
+    throw damaged(path, fmt::format("{} x {} pixels cannot be in {:.0f} bytes", spec.width,
+                                    spec.height, size));
 }
 
 bool is_tagged_srgb(const oiio::ImageSpec& spec) {
@@ -116,6 +128,7 @@ Picture read_picture(const std::string& path, Transfer transfer) {
   if (std::string(input->format_name()) == "png") {
     const PngChunks chunks = png_chunks(path);
     if (!chunks.complete) throw damaged(path, "it has no end");
+    check_png_size(path, spec);
     picture.srgb_tagged = picture.srgb_tagged || chunks.srgb;
   }
   picture.metadata = texts_of(spec);
