@@ -1,6 +1,7 @@
 #include "erosion/flow_routing.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace wold {
 
@@ -46,19 +47,23 @@ void directions_of_row(const Grid<float>& height, int j, std::span<int> directio
   }
 }
 
-/// Adds 1 where `from` is `towards`. In blocks, which bytes that may alias forbid otherwise.
-void count_donors(const std::uint8_t* from, std::uint8_t* out, std::uint8_t towards, int count) {
+/// Sets bit d where `from` flows the opposite way. In blocks, as bytes that may alias forbid
+/// vectors.
+void mark_donors(const std::uint8_t* from, std::uint8_t* out, int d, int count) {
   constexpr int block = 64;
+  const auto towards = static_cast<std::uint8_t>(opposite_flow(d));
+  const auto bit = static_cast<std::uint8_t>(1U << static_cast<unsigned>(d));
+  const auto marked = [=](std::uint8_t mask, std::uint8_t direction) {
+    return static_cast<std::uint8_t>(mask | (direction == towards ? bit : 0));
+  };
   int i = 0;
   for (; i + block <= count; i += block) {
-    std::array<std::uint8_t, block> sum;
+    std::array<std::uint8_t, block> masks;
     for (int k = 0; k < block; ++k)
-      sum[static_cast<std::size_t>(k)] =
-          static_cast<std::uint8_t>(out[i + k] + static_cast<std::uint8_t>(from[i + k] == towards));
-    std::copy(sum.begin(), sum.end(), out + i);
+      masks[static_cast<std::size_t>(k)] = marked(out[i + k], from[i + k]);
+    std::copy(masks.begin(), masks.end(), out + i);
   }
-  for (; i < count; ++i)
-    out[i] = static_cast<std::uint8_t>(out[i] + static_cast<std::uint8_t>(from[i] == towards));
+  for (; i < count; ++i) out[i] = marked(out[i], from[i]);
 }
 
 /// What flows out of a band of rows.
@@ -131,22 +136,22 @@ Grid<std::uint8_t> d8_directions(const Grid<float>& height, Progress& progress) 
   return out;
 }
 
-void donor_counts(const Grid<std::uint8_t>& direction, Grid<std::uint8_t>& count,
-                  Progress& progress) {
+void donor_masks(const Grid<std::uint8_t>& direction, Grid<std::uint8_t>& mask,
+                 Progress& progress) {
   const int w = direction.width();
-  if (!count.same_shape(direction)) count = Grid<std::uint8_t>(w, direction.height());
+  if (!mask.same_shape(direction)) mask = Grid<std::uint8_t>(w, direction.height());
   parallel_for(
       0, direction.height(),
       [&](int j) {
-        const std::span<std::uint8_t> out = count.row(j);
+        const std::span<std::uint8_t> out = mask.row(j);
         std::fill(out.begin(), out.end(), std::uint8_t{0});
         for (int d = 0; d < 8; ++d) {
           const int y = j + flow_dy[static_cast<std::size_t>(d)];
           if (y < 0 || y >= direction.height()) continue;
           const int dx = flow_dx[static_cast<std::size_t>(d)];
           const int first = std::max(0, -dx);
-          count_donors(direction.row(y).data() + first + dx, out.data() + first,
-                       static_cast<std::uint8_t>(opposite_flow(d)), std::min(w, w - dx) - first);
+          mark_donors(direction.row(y).data() + first + dx, out.data() + first, d,
+                      std::min(w, w - dx) - first);
         }
         progress.check();
       },
@@ -158,8 +163,8 @@ void FlowOrder::build_with(const Grid<std::uint8_t>& direction, std::span<Amount
                            Progress& progress) {
   const int w = direction.width();
   const int h = direction.height();
-  donor_counts(direction, donors_, progress);
-  waiting_ = donors_;
+  donor_masks(direction, donors_, progress);
+  if (!waiting_.same_shape(donors_)) waiting_ = Grid<std::uint8_t>(w, h);
   const Walker<Amount> walker(direction, waiting_.values(), amounts);
   bands_.resize(static_cast<std::size_t>((h + band_rows - 1) / band_rows));
   std::vector<std::vector<Crossing<Amount>>> outside(bands_.size());
@@ -167,6 +172,9 @@ void FlowOrder::build_with(const Grid<std::uint8_t>& direction, std::span<Amount
     const auto band = static_cast<std::size_t>(b);
     const int first = b * band_rows * w;
     const int last = std::min(h, (b + 1) * band_rows) * w;
+    for (int k = first; k < last; ++k)
+      waiting_.values()[static_cast<std::size_t>(k)] =
+          static_cast<std::uint8_t>(std::popcount(donors_.values()[static_cast<std::size_t>(k)]));
     bands_[band].clear();
     bands_[band].reserve(static_cast<std::size_t>(last - first));
     for (int k = first; k < last; ++k) {

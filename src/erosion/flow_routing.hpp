@@ -65,9 +65,8 @@ inline constexpr Sides all_sides{true, true, true, true};
 /// For each sample the number of the neighbour that takes its water, `flow_stops` or `flow_leaves`.
 Grid<std::uint8_t> d8_directions(const Grid<float>& height, Progress& progress);
 
-/// How many neighbours give their water to each sample.
-void donor_counts(const Grid<std::uint8_t>& direction, Grid<std::uint8_t>& count,
-                  Progress& progress);
+/// Which neighbours give their water to each sample: a bit for each, by its number.
+void donor_masks(const Grid<std::uint8_t>& direction, Grid<std::uint8_t>& mask, Progress& progress);
 
 /// Samples, as places in `values()`, such that all that is upstream of one comes before it.
 class FlowOrder {

@@ -1,6 +1,8 @@
 #include "erosion/flow_routing_pits.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <numeric>
 
 namespace wold {
@@ -83,10 +85,10 @@ std::vector<int> pits_of(const Grid<std::uint8_t>& direction, Progress& progress
 // Basins of pits only, each upstream from its pit: where pits are few, little is visited.
 void PitRouter::label_basins(const Grid<std::uint8_t>& direction, const std::vector<int>& pits,
                              Progress& progress) {
-  donor_counts(direction, donors_, progress);
+  donor_masks(direction, donors_, progress);
   if (label_.width() == direction.width() && label_.height() == direction.height())
-    for (const std::vector<Sample>& samples : samples_)
-      for (const Sample& s : samples) label_.values()[at(s.k)] = 0;
+    for (const std::vector<int>& samples : samples_)
+      for (const int k : samples) label_.values()[at(k)] = 0;
   else
     label_ = Grid<int>(direction.width(), direction.height(), 0);
   const int count = static_cast<int>(pits.size());
@@ -94,30 +96,23 @@ void PitRouter::label_basins(const Grid<std::uint8_t>& direction, const std::vec
   parallel_for(0, static_cast<int>(samples_.size()), [&](int c) {
     samples_[at(c)].clear();
     for (int p = c * pits_at_once; p < std::min(count, (c + 1) * pits_at_once); ++p) {
-      label_basin(direction, pits[at(p)], p + 1, samples_[at(c)]);
+      label_basin(pits[at(p)], p + 1, samples_[at(c)]);
       progress.check();
     }
   });
 }
 
-void PitRouter::label_basin(const Grid<std::uint8_t>& direction, int pit, int number,
-                            std::vector<Sample>& samples) {
-  const int w = direction.width();
-  const int last_row = w * (direction.height() - 1);
-  const std::uint8_t* towards = direction.values().data();
+void PitRouter::label_basin(int pit, int number, std::vector<int>& samples) {
+  const int w = label_.width();
+  std::array<int, 8> steps{};
+  for (int d = 0; d < 8; ++d) steps[at(d)] = flow_step(d, w);
   std::size_t next = samples.size();
-  samples.push_back({pit, pit % w});
+  samples.push_back(pit);
   for (; next < samples.size(); ++next) {
-    const Sample s = samples[next];
-    label_.values()[at(s.k)] = number;
-    if (donors_.values()[at(s.k)] == 0) continue;
-    for (int d = 0; d < 8; ++d) {
-      const int i = s.i + flow_dx[at(d)];
-      const int dy = flow_dy[at(d)];
-      if (i < 0 || i >= w || (dy < 0 && s.k < w) || (dy > 0 && s.k >= last_row)) continue;
-      const int n = s.k + flow_step(d, w);
-      if (towards[n] == opposite_flow(d)) samples.push_back({n, i});
-    }
+    const int k = samples[next];
+    label_.values()[at(k)] = number;
+    for (unsigned mask = donors_.values()[at(k)]; mask != 0; mask &= mask - 1)
+      samples.push_back(k + steps[at(std::countr_zero(mask))]);
   }
 }
 

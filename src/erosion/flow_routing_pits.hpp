@@ -35,15 +35,9 @@ class PitRouter {
     }
   };
 
-  struct Sample {
-    int k = 0;
-    int i = 0;  ///< its column
-  };
-
   void label_basins(const Grid<std::uint8_t>& direction, const std::vector<int>& pits,
                     Progress& progress);
-  void label_basin(const Grid<std::uint8_t>& direction, int pit, int number,
-                   std::vector<Sample>& samples);
+  void label_basin(int pit, int number, std::vector<int>& samples);
   void find_passes(const Grid<float>& height, const Sides& open, Progress& progress);
   std::vector<Pass> spanning_tree(int basins);
   void turn_round(Grid<std::uint8_t>& direction, const std::vector<Pass>& tree, int basins) const;
@@ -54,7 +48,7 @@ class PitRouter {
 
   Grid<int> label_;
   Grid<std::uint8_t> donors_;
-  std::vector<std::vector<Sample>> samples_;  ///< in basins of pits, of some pits together
+  std::vector<std::vector<int>> samples_;  ///< in basins of pits, of some pits together
   std::vector<Pass> passes_;
 };
 

@@ -12,6 +12,11 @@ namespace {
 constexpr int chunk = 256;  // samples whose state stays in the first cache
 constexpr float least_cosine = 0.7F;
 
+/// Unit vectors to the neighbours, and none for a pit.
+constexpr float diagonal = 0.70710678F;
+constexpr std::array<float, 9> unit_x{1, diagonal, 0, -diagonal, -1, -diagonal, 0, diagonal, 0};
+constexpr std::array<float, 9> unit_y{0, diagonal, 1, diagonal, 0, -diagonal, -1, -diagonal, 0};
+
 /// 32 random bits of a sample: an integer hash cheap in vectors (Wellons, "lowbias32", 2018).
 std::uint32_t bits_of(const DirectionRow& row, int i) {
   std::uint32_t x = row.key + static_cast<std::uint32_t>(i) * 0x9e3779b9U +
@@ -34,8 +39,6 @@ struct Chunk {
   alignas(64) std::array<std::uint32_t, chunk> bits;
   alignas(64) std::array<float, chunk> steepest;
   alignas(64) std::array<int, chunk> direction;
-  alignas(64) std::array<float, chunk> to_x;  ///< unit vector to the receiver
-  alignas(64) std::array<float, chunk> to_y;
   alignas(64) std::array<float, chunk> fall_x;
   alignas(64) std::array<float, chunk> fall_y;
 };
@@ -44,13 +47,12 @@ void begin(Chunk& s, const DirectionRow& row, int first) {
   for (int c = 0; c < chunk; ++c) s.bits[static_cast<std::size_t>(c)] = bits_of(row, first + c);
   s.steepest.fill(0);
   s.direction.fill(flow_stops);
-  s.to_x.fill(0);
-  s.to_y.fill(0);
   s.fall_x.fill(0);
   s.fall_y.fill(0);
 }
 
-/// Neighbour d of `count` samples from `height` on; plain selects, so that vectors are made of it.
+/// Neighbour d of `count` samples from `height` on; bits are masked, not chosen,
+/// because masked stores to the same place would wait for each other.
 template <bool has_nearness>
 void look(Chunk& s, const float* height, const float* near, const DirectionRow& row, int d,
           int count) {
@@ -60,21 +62,18 @@ void look(Chunk& s, const float* height, const float* near, const DirectionRow& 
   const auto near_d = static_cast<float>(1 / flow_distance(d));
   const auto sobel_x = static_cast<float>(dx * (dy == 0 ? 2 : 1));
   const auto sobel_y = static_cast<float>(dy * (dx == 0 ? 2 : 1));
-  const float x = static_cast<float>(dx) * near_d;
-  const float y = static_cast<float>(dy) * near_d;
   const float wandering = row.wandering;
   for (int k = 0; k < count; ++k) {
     const auto c = static_cast<std::size_t>(k);
     const float fall = height[k] - there[k];
     const float slope =
         fall * (has_nearness ? near[k] : near_d) * chance_of(s.bits[c], d, wandering);
-    const bool steeper = slope > s.steepest[c];
+    const float before = s.steepest[c];
+    const int mask = -static_cast<int>(slope > before);
     s.fall_x[c] += fall * sobel_x;
     s.fall_y[c] += fall * sobel_y;
-    s.steepest[c] = steeper ? slope : s.steepest[c];
-    s.direction[c] = steeper ? d : s.direction[c];
-    s.to_x[c] = steeper ? x : s.to_x[c];
-    s.to_y[c] = steeper ? y : s.to_y[c];
+    s.steepest[c] = std::max(slope, before);
+    s.direction[c] = (d & mask) | (s.direction[c] & ~mask);
   }
 }
 
@@ -100,7 +99,8 @@ void find_directions(const DirectionRow& row, std::uint8_t* direction, float* co
       const auto c = static_cast<std::size_t>(k);
       const float length =
           std::sqrt(s.fall_x[c] * s.fall_x[c] + s.fall_y[c] * s.fall_y[c] + 1e-12F);
-      const float along = s.fall_x[c] * s.to_x[c] + s.fall_y[c] * s.to_y[c];
+      const auto d = static_cast<std::size_t>(s.direction[c]);
+      const float along = s.fall_x[c] * unit_x[d] + s.fall_y[c] * unit_y[d];
       cosine[first + k] = std::min(1.0F, std::max(least_cosine, along / length));
     }
     for (int k = 0; k < count; ++k)

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int tabled_counts = 8192;
 constexpr double rain_unit = 256;
+constexpr float stream_area = 2000;  // m², from which sediment is laid down
 constexpr float rests_up_to = 0.7F;  // of the talus slope; sediment does not rest on steeper ground
 
 constexpr std::size_t at(int k) {
@@ -177,6 +178,7 @@ void StreamPowerSolver::deposit(Grid<float>& height, const Grid<float>& area) {
     if (d >= flow_stops) return;
     const float spill = height.values()[at(k + flow_step(d, w))];
     const auto distance = static_cast<float>(cell_ * flow_distance(d));
+    if (area.values()[at(k)] < stream_area) return;
     if (h - spill > rests_up_to * ground_.talus.values()[at(k)] * distance) return;
     const float room = spill > h ? spill - h : std::max(0.0F, 0.5F * (lowest_donor - h));
     const float wanted = spill > h ? room

@@ -19,10 +19,11 @@
 // crosses depressions (flow_routing_pits.hpp) and leaves their ground as it is.
 //
 // With deposition, of the load q that passes a sample in a step (m over its area) G q cell² / A is
-// laid down where the ground is not too steep (Davy and Lague, 2009; Yuan, Braun, Guerit, Rouby,
-// Cordonnier, "A new efficient method to solve the stream power law model taking into account
-// sediment deposition", 2019; here explicit, after the erosion of the step), but only up to half
-// the way to the lowest donor; in depressions as much as there is room for. In balance S then is (1
+// laid down from A = 2000 m² on where the ground is not too steep (Davy and Lague, 2009; Yuan,
+// Braun, Guerit, Rouby, Cordonnier, "A new efficient method to solve the stream power law model
+// taking into account sediment deposition", 2019; here explicit, after the erosion of the step),
+// but only up to half the way to the lowest donor; in depressions as much as there is room for. In
+// balance S then is (1
 // + G)^(1/n) times as great.
 //
 // So that rivers do not run along the axes, samples are thought of as shifted from the grid, each
