@@ -25,8 +25,9 @@ std::vector<std::uint32_t> same_points(const Content& content) {
   std::vector<std::uint32_t> order(content.points.size());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const auto order_of_keys = key(a) <=> key(b);
-    return order_of_keys != 0 ? order_of_keys < 0 : a < b;
+    const auto of_a = key(a);
+    const auto of_b = key(b);
+    return of_a == of_b ? a < b : of_a < of_b;
   });
   std::vector<std::uint32_t> same(order.size());
   for (std::size_t k = 0; k < order.size(); ++k)
