@@ -131,9 +131,12 @@ void LayeredLand::add_maps(TerrainResult& result) {
 
 Pipes canyon_water() {
   Pipes water;
-  water.rain = 20;
-  water.capacity = 5;
-  water.unevenness = 0.7F;
+  water.duration = 8;
+  water.rain = 8;
+  water.lakes = false;
+  water.capacity = 3;
+  water.stirring = 1;
+  water.unevenness = 1;
   return water;
 }
 

@@ -143,35 +143,40 @@ namespace {
 
 constexpr float spread = 1.0F / 8;  // of the newest change, to each neighbour beside
 
-/// What slides from sample i of `a` to sample k of `b`, `far` cells apart, in grains.
-Grains slides(const SlideState& a, int i, const SlideState& b, int k, float far, float weight,
-              const SlideConstants& c) {
-  const float rise = a.rise[i] - b.rise[k];
+/// Takes from `change` what slides from row a to the neighbours in row b, `far` cells apart.
+void slide_apart(const SlideState& a, const SlideState& b, float far, const SlideConstants& c,
+                 Grains* __restrict change, int n) {
   const float least = far * c.cell;
-  const float steepened = metres(a.change[i] - b.change[k]);
-  const float down =
-      lower(higher(rise - least, 0) * a.tangent[i], c.only_new ? higher(steepened, 0) : 1e9F);
-  const float up =
-      lower(higher(-rise - least, 0) * b.tangent[k], c.only_new ? higher(-steepened, 0) : 1e9F);
-  const float drop = (a.ground[i] - b.ground[k]) + steepened;
-  const float evened = lower(a.stir[i] + b.stir[k], 0.1F) * drop;
-  const float newest = metres((a.change[i] - a.at_last[i]) - (b.change[k] - b.at_last[k]));
-  const float metres_out = 0.1F * (down - up) + evened + spread * newest;
-  return static_cast<Grains>(weight * metres_out * grains_per_metre);
+  const float weight = (far > 1 ? 0.5F : 1.0F) * grains_per_metre;
+  const float old_too = c.only_new ? 0 : 1e9F;
+  for (int i = 0; i < n; ++i) {
+    const float rise = a.rise[i] - b.rise[i];
+    const float steepened = metres(a.change[i] - b.change[i]);
+    const float down = lower(higher(rise - least, 0) * a.tangent[i], higher(steepened, old_too));
+    const float up = lower(higher(-rise - least, 0) * b.tangent[i], higher(-steepened, old_too));
+    const float drop = (a.ground[i] - b.ground[i]) + steepened;
+    const float evened = lower(a.stir[i] + b.stir[i], 0.14F) * drop;
+    const float newest = metres((a.change[i] - a.at_last[i]) - (b.change[i] - b.at_last[i]));
+    change[i] -= static_cast<Grains>(weight * (0.1F * (down - up) + evened + spread * newest));
+  }
+}
+
+SlideState shifted(const SlideState& s, int by) {
+  return {s.ground + by, s.change + by, s.rise + by, s.tangent + by, s.stir + by, s.at_last + by};
 }
 
 }  // namespace
 
 std::int64_t slide(const SlideState& below, const SlideState& at, const SlideState& above,
-                   Grains* __restrict new_change, int n, const SlideConstants& c) {
+                   Grains* new_change, int n, const SlideConstants& c) {
   constexpr float far = 1.41421356F;
-  for (int i = 0; i < n; ++i) {
-    const Grains beside = slides(at, i, at, i - 1, 1, 1, c) + slides(at, i, at, i + 1, 1, 1, c) +
-                          slides(at, i, below, i, 1, 1, c) + slides(at, i, above, i, 1, 1, c);
-    const Grains across =
-        slides(at, i, below, i - 1, far, 0.5F, c) + slides(at, i, below, i + 1, far, 0.5F, c) +
-        slides(at, i, above, i - 1, far, 0.5F, c) + slides(at, i, above, i + 1, far, 0.5F, c);
-    new_change[i] = at.change[i] - beside - across;
+  std::copy_n(at.change, n, new_change);
+  slide_apart(at, below, 1, c, new_change, n);
+  slide_apart(at, above, 1, c, new_change, n);
+  for (const int side : {-1, 1}) {
+    slide_apart(at, shifted(at, side), 1, c, new_change, n);
+    slide_apart(at, shifted(below, side), far, c, new_change, n);
+    slide_apart(at, shifted(above, side), far, c, new_change, n);
   }
   std::int64_t moved = 0;
   for (int i = 0; i < n; ++i) {

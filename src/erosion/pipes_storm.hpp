@@ -16,17 +16,4 @@ using RockFunction = std::function<MaterialFunction(
 TerrainResult storm(const Heightfield& input, const Pipes& parameters,
                     const TerrainContext& context, const RockFunction& rock = {});
 
-/// 1 - hardness, from the map of that name; 1 without.
-Grid<float> ease_of(const Heightfield& input, const std::string& hardness, bool invert,
-                    const TerrainContext& context);
-
-/// Depths of the map of that name, m; 0 without. Throws Error(input) for depths above 300 m.
-Grid<float> depth_map(const Heightfield& input, const std::string& name,
-                      const TerrainContext& context);
-
-/// The input with its change and with what is still in the water; "wear" and "sediment" go to the
-/// maps.
-Heightfield changed_ground(const Heightfield& input, const Grid<Grains>& change,
-                           const Grid<Grains>& carried, std::map<std::string, Grid<float>>& maps);
-
 }  // namespace wold::pipes_detail
