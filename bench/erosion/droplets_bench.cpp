@@ -2,10 +2,12 @@
 // the fastest run. Peer: the add-on of the sources with its own shaders on the same two cores, 52
 // to 59 M steps/s, not conserving, not deterministic. The goal is 5 times that, 275 M.
 //
-// Floor on Zen 4 with 512-bit vectors, 16 drops: about 190 vector operations of one cycle each (two
-// halves on two units) with a square root, another and a division of 10 cycles: 220 cycles; per
-// drop 4 loads to gather and 4 loads and 2 stores to write back, half a cycle each with their
-// additions: 100 cycles. 20 core cycles per step in all; "share" is the floor over the measured.
+// Floor on Zen 4 with 512-bit vectors, 16 drops, as counted: about 190 vector operations of one
+// cycle each (two halves on two units), two square roots and a division of 10 cycles: 220 cycles;
+// per drop 4 loads to gather and 4 loads and 2 stores to write back with their additions: 6 cycles.
+// 20 core cycles per step; "share" is that over the measured, for a core at 3.7 GHz (assumed: the
+// counter does not tell). Measured in one tile: 20. A whole run adds a fifth for maps, brush and
+// slides, and suffers from other programs; one tile is short enough to be often undisturbed.
 
 #include <benchmark/benchmark.h>
 
@@ -54,7 +56,7 @@ void default_droplets(benchmark::State& state) {
 }
 BENCHMARK(default_droplets)->ArgName("samples")->Arg(1024)->Unit(benchmark::kMillisecond);
 
-// One tile on one thread: short enough to be often undisturbed.
+// One tile on one thread.
 void one_tile(benchmark::State& state) {
   const int samples = 256;
   Progress progress;

@@ -120,7 +120,7 @@ struct SlideRates {
   float creep = 0;   ///< share of a difference
 };
 
-/// Adds to `out` what samples of `here` get from those of `there`, in quanta.
+/// What samples of `here` get from those of `there`, in quanta.
 template <bool hardness>
 void slide(const BankRows& here, const BankRows& there, int count, const SlideRates& rates,
            std::int32_t* out) {
@@ -135,9 +135,13 @@ void slide(const BankRows& here, const BankRows& there, int count, const SlideRa
     const std::int32_t laid =
         difference > 0 ? there.height[i] - there.initial[i] : here.height[i] - here.initial[i];
     const float loose = std::min(std::max(0.0F, static_cast<float>(laid)), height);
-    out[i] += static_cast<std::int32_t>(
+    out[i] = static_cast<std::int32_t>(
         std::copysign(std::max(surplus, loose * rates.creep), difference));
   }
+}
+
+void add(const std::int32_t* amounts, int count, std::int32_t sign, std::int32_t* out) {
+  for (int i = 0; i < count; ++i) out[i] += sign * amounts[i];
 }
 
 }  // namespace
@@ -198,21 +202,33 @@ void DropletGround::settle(double bank_slope, double creep, double cell, const f
     return {before_.data() + first, initial_.data() + first,
             softness == nullptr ? nullptr : softness + first};
   };
-  const auto work = softness == nullptr ? slide<false> : slide<true>;
-  parallel_for(
-      0, height_,
-      [&](int j) {
-        std::int32_t* out = spread_.data() + static_cast<std::ptrdiff_t>(j) * width_;
-        std::copy_n(before_.data() + static_cast<std::ptrdiff_t>(j) * width_, width_, out);
-        for (int other = std::max(0, j - 1); other <= std::min(height_ - 1, j + 1); ++other) {
-          const SlideRates& side = other == j ? straight : diagonal;
-          if (other != j) work(rows_at(j, 0), rows_at(other, 0), width_, straight, out);
-          work(rows_at(j, 0), rows_at(other, 1), width_ - 1, side, out);
-          work(rows_at(j, 1), rows_at(other, 0), width_ - 1, side, out + 1);
-        }
-        progress.check();
-      },
-      rows_of_task);
+  const auto slide_rows = softness == nullptr ? slide<false> : slide<true>;
+  const auto out_row = [&](int j) {
+    return spread_.data() + static_cast<std::ptrdiff_t>(j) * width_;
+  };
+  const int tasks = (height_ + rows_of_task - 1) / rows_of_task;
+  parallel_for(0, tasks, [&](int task) {
+    const int low = task * rows_of_task;
+    const int high = std::min(height_, low + rows_of_task);
+    std::copy(before_.data() + static_cast<std::ptrdiff_t>(low) * width_,
+              before_.data() + static_cast<std::ptrdiff_t>(high) * width_, out_row(low));
+    std::vector<std::int32_t> amounts(static_cast<std::size_t>(width_));
+    // Between sample i + a of row j and sample i + b of row k; both if they belong to this task.
+    const auto pairs = [&](int j, int a, int k, int b, const SlideRates& rates) {
+      const int count = width_ - std::max(a, b);
+      slide_rows(rows_at(j, a), rows_at(k, b), count, rates, amounts.data());
+      if (j >= low) add(amounts.data(), count, 1, out_row(j) + a);
+      if (k < high) add(amounts.data(), count, -1, out_row(k) + b);
+    };
+    for (int j = std::max(0, low - 1); j < high; ++j) {
+      if (j >= low) pairs(j, 0, j, 1, straight);
+      if (j + 1 == height_) continue;
+      pairs(j, 0, j + 1, 0, straight);
+      pairs(j, 0, j + 1, 1, diagonal);
+      pairs(j, 1, j + 1, 0, diagonal);
+    }
+    progress.check();
+  });
   parallel_for(
       0, height_,
       [&](int j) {

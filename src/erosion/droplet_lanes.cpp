@@ -33,6 +33,7 @@ DropletWalk::DropletWalk(const DropletWorld& world, const DropletRates& rates,
   step_.stride = world.width;
   step_.first = region.bottom * world.width + region.left;
   step_.hardness = world.softness != nullptr;
+  step_.record = world.passes != nullptr;
   while (active_ < droplet_lanes && next_ < drops_.size())
     begin_lane(index(active_++), drops_[next_++]);
 }
@@ -168,15 +169,11 @@ void DropletWalk::gather_softness(int first, int count, DropletCorners& corners)
   }
 }
 
-void DropletWalk::record(int first, int count) {
-  for (int k = 0; k < count; ++k) {
-    const std::size_t lane = index(first + k);
-    const int right = lanes.from_x[lane] >= 0.5F ? 1 : 0;
-    const int up = lanes.from_y[lane] >= 0.5F ? 1 : 0;
-    const std::size_t sample = index(lanes.from[lane] + up * world_.width + right);
-    ++world_.passes[sample];
-    world_.speed[sample] +=
-        static_cast<std::uint32_t>(std::sqrt(lanes.v2[lane]) * (1 / droplet_speed_unit));
+void DropletWalk::record(int count, const DropletChanges& changes) {
+  for (std::size_t k = 0; k < index(count); ++k) {
+    DropletPasses& here = world_.passes[changes.nearest[k]];
+    ++here.count;
+    here.speed += static_cast<std::uint32_t>(changes.speed[k]);
   }
 }
 

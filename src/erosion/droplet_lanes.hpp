@@ -39,7 +39,8 @@ struct DropletCorners {
 /// What a group does to the ground: for each drop, height and wear of two samples of each row.
 struct DropletChanges {
   alignas(64) DropletBlocks low, high;
-  alignas(64) std::array<std::int32_t, droplet_group> at;  ///< sample to the south-west
+  alignas(64) std::array<std::int32_t, droplet_group> at;              ///< sample to the south-west
+  alignas(64) std::array<std::int32_t, droplet_group> nearest, speed;  ///< while recorded
 };
 
 /// Where a step may lead.
@@ -50,6 +51,7 @@ struct DropletStep {
   int stride = 0;
   int first = 0;  ///< index of the region's first sample
   bool hardness = false;
+  bool record = false;
 };
 
 class DropletWalk {
@@ -62,7 +64,7 @@ class DropletWalk {
 
   void gather_softness(int first, int count, DropletCorners& corners) const;
   /// Counts the drops of a group at the samples nearest to where they are.
-  void record(int first, int count);
+  void record(int count, const DropletChanges& changes);
   /// Moves the colours of what a group's drops took up or laid down. `changes` by lanes.
   void carry_colors(int first, int count, const DropletChanges& changes);
 

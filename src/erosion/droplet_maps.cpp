@@ -46,15 +46,16 @@ float without_speck(const Grid<float>& map, int i, int j) {
 
 Grid<float> discharge_map(const DropletRecord& record, int width, int height) {
   const double area = record.rain > 0 ? 1 / record.rain : 0;
-  return from_samples(width, height,
-                      [&](std::size_t k) { return static_cast<float>(area * record.passes[k]); });
+  return from_samples(width, height, [&](std::size_t k) {
+    return static_cast<float>(area * record.passes[k].count);
+  });
 }
 
 Grid<float> velocity_map(const DropletRecord& record, int width, int height) {
   return from_samples(width, height, [&](std::size_t k) {
-    if (record.passes[k] == 0) return 0.0F;
-    return droplet_speed_unit * static_cast<float>(record.speed[k]) /
-           static_cast<float>(record.passes[k]);
+    if (record.passes[k].count == 0) return 0.0F;
+    return droplet_speed_unit * static_cast<float>(record.passes[k].speed) /
+           static_cast<float>(record.passes[k].count);
   });
 }
 

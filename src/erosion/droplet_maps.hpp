@@ -5,15 +5,14 @@
 #include <vector>
 
 #include "base/grid.hpp"
-#include "base/progress.hpp"
+#include "erosion/droplet_walk.hpp"
 
 namespace wold {
 
 /// What drops left at each sample while they were recorded.
 struct DropletRecord {
-  std::vector<std::uint32_t> passes;
-  std::vector<std::uint32_t> speed;  ///< sum over passes, in droplet_speed_unit
-  double rain = 0;                   ///< drops per m² that were recorded
+  std::vector<DropletPasses> passes;
+  double rain = 0;  ///< drops per m² that were recorded
 };
 
 /// Area whose rain comes through, m².

@@ -88,7 +88,8 @@ void DropletRun::rain() {
       static_cast<unsigned>(std::clamp(drops_of_round / (per_cell * side * side), 1.0, 8.0))));
   // Eight neighbours spread a share c each by the variance 6 c cell² along each axis.
   const double creep_cells = static_cast<double>(parameters_.creep) / input_.cell;
-  creep_ = creep_cells * creep_cells * at_once / (6 * showers_of_rain);
+  settled_rounds_ = at_once == 1 ? 2 : 1;
+  creep_ = creep_cells * creep_cells * at_once * settled_rounds_ / (6 * showers_of_rain);
   const std::vector<DropletShower> showers = droplet_showers(rain, showers_of_rain, context_.seed);
   for (int k = 0; k < showers_of_rain; k += at_once) {
     if (k == showers_of_rain - recorded_showers) start_record();
@@ -105,6 +106,7 @@ void DropletRun::rain() {
 void DropletRun::round(DropletTiles& tiles, int k) {
   tiles.move(world_, rates_, k, context_.progress);
   ground_.spread_changes(radius_cells_, world_.softness, context_.progress);
+  if (++rounds_ % settled_rounds_ != 0) return;
   ground_.settle(std::tan(radians(static_cast<double>(parameters_.bank_slope))), creep_,
                  input_.cell, world_.softness, context_.progress);
 }
@@ -112,16 +114,13 @@ void DropletRun::round(DropletTiles& tiles, int k) {
 void DropletRun::start_record() {
   record_.rain = static_cast<double>(parameters_.rain) * recorded_showers / showers_of_rain;
   record_.passes.resize(input_.height.size());
-  record_.speed.resize(input_.height.size());
   world_.passes = record_.passes.data();
-  world_.speed = record_.speed.data();
 }
 
 TerrainResult DropletRun::result() {
   const int width = world_.width;
   const int height = world_.height;
   record_.passes.resize(input_.height.size());
-  record_.speed.resize(input_.height.size());
   TerrainResult result{{ground_.eroded(input_), input_.origin, input_.cell}, {}, {}};
   Grid<float> wear = ground_.wear(radius_cells_, world_.softness, context_.progress);
   Grid<float> sediment(width, height);

@@ -33,6 +33,8 @@ class DropletRun {
   DropletRates rates_;
   double radius_cells_;
   double creep_ = 0;  ///< of loose sediment, share of a difference and round
+  int rounds_ = 0;
+  int settled_rounds_ = 1;  ///< rounds until the ground settles again
   DropletWorld world_;
   DropletColors colors_;
   DropletRecord record_;

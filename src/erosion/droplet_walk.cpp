@@ -228,6 +228,20 @@ HWY_INLINE std::uint32_t bits_of(hn::Mask<Floats> mask) {
   return bytes[0] | static_cast<std::uint32_t>(bytes[1]) << 8U;
 }
 
+/// The sample nearest to the drop, and its speed there.
+HWY_INLINE void note_pass(const DropletLanes& l, int lane, F fx, F fy, F v2,
+                          const DropletStep& step, DropletChanges& changes, int k) {
+  const Ints i;
+  const F half = number(0.5F);
+  const auto beyond = [&](F fraction, int samples) {
+    return hn::IfThenElseZero(hn::RebindMask(i, hn::Ge(fraction, half)), hn::Set(i, samples));
+  };
+  const I nearest =
+      hn::Add(hn::Load(i, &l.at[lane]), hn::Add(beyond(fx, 1), beyond(fy, step.stride)));
+  hn::Store(nearest, i, &changes.nearest[k]);
+  hn::Store(rounded(hn::Mul(hn::Sqrt(v2), number(1 / droplet_speed_unit))), i, &changes.speed[k]);
+}
+
 /// One step of up to 16 lanes from `first`: fills `changes`, moves the drops, and returns which of
 /// them have ended, as bits.
 HWY_INLINE std::uint32_t step_vector(DropletLanes& l, int lane, const DropletCorners& corners,
@@ -269,6 +283,7 @@ HWY_INLINE std::uint32_t step_vector(DropletLanes& l, int lane, const DropletCor
   hn::Store(m.dx, f, &l.dx[lane]);
   hn::Store(m.dy, f, &l.dy[lane]);
   hn::Store(m.v2, f, &l.v2[lane]);
+  if (step.record) note_pass(l, lane, fx, fy, m.v2, step, changes, k);
   hn::Store(hn::IfThenElse(first, water, hn::Mul(water, number(r.water))), f, &l.water[lane]);
   const F now_left = hn::Sub(left, number(1));
   hn::Store(now_left, f, &l.left[lane]);
@@ -371,7 +386,7 @@ void walk_lanes(DropletWalk& walk, DropletTally& tally, const Progress& progress
       if (first + droplet_group < walk.active()) gather(walk, first + droplet_group, corners[turn]);
       std::uint32_t ended = step_group(walk.lanes, first, here, changes, walk.step());
       apply_changes(walk.world(), count, changes);
-      if (walk.world().passes != nullptr) walk.record(first, count);
+      if (walk.step().record) walk.record(count, changes);
       if (walk.world().colors != nullptr) walk.carry_colors(first, count, sorted(changes));
       ended &= (std::uint32_t{1} << static_cast<unsigned>(count)) - 1U;
       if (ended != 0) walk.end_lanes(first, ended);

@@ -56,14 +56,19 @@ struct DropletColors {
   float depth = 0;  ///< quanta
 };
 
+/// Drops that passed nearest to a sample.
+struct DropletPasses {
+  std::uint32_t count = 0;
+  std::uint32_t speed = 0;  ///< their sum, droplet_speed_unit m/s
+};
+
 /// What the walks of all tiles share. Pointers to arrays of width · height; null for none.
 struct DropletWorld {
   int width = 0;
   int height = 0;
   DropletCell* cells = nullptr;
   const float* softness = nullptr;  ///< 0 to 1, share of the erosion
-  std::uint32_t* passes = nullptr;  ///< of drops, while recorded
-  std::uint32_t* speed = nullptr;   ///< their sum, speed_unit m/s
+  DropletPasses* passes = nullptr;  ///< while recorded
   DropletColors* colors = nullptr;
   bool closed_border = false;
 };

@@ -31,14 +31,13 @@ Heightfield plane() {
 /// What a single drop leaves behind.
 struct Walk {
   explicit Walk(const Droplets& parameters, DropletColors* colors = nullptr)
-      : field(plane()), ground(field), passes(field.height.size()), speed(field.height.size()) {
+      : field(plane()), ground(field), passes(field.height.size()) {
     const DropletRates rates = droplet_rates(parameters, cell, ground.quantum());
     DropletWorld world;
     world.width = width;
     world.height = height;
     world.cells = ground.cells();
     world.passes = passes.data();
-    world.speed = speed.data();
     world.colors = colors;
     Drop drop;
     drop.cell = {static_cast<int>(start_x), start_y};
@@ -63,8 +62,7 @@ struct Walk {
 
   Heightfield field;
   DropletGround ground;
-  std::vector<std::uint32_t> passes;
-  std::vector<std::uint32_t> speed;
+  std::vector<DropletPasses> passes;
   DropletTally tally;
 };
 
@@ -83,12 +81,15 @@ void expect_falls_freely(const Droplets& parameters, int ahead = 0) {
   Walk walk(parameters);
   EXPECT_EQ(walk.tally.finished, 1);
   for (int i = 4; i < width; ++i) {
-    EXPECT_EQ(walk.passes[walk.sample(i, start_y)], 1U) << i;
+    EXPECT_EQ(walk.passes[walk.sample(i, start_y)].count, 1U) << i;
     const double fallen = slope * cell * (i - 4 + ahead);
-    const float v = static_cast<float>(walk.speed[walk.sample(i, start_y)]) * droplet_speed_unit;
+    const float v =
+        static_cast<float>(walk.passes[walk.sample(i, start_y)].speed) * droplet_speed_unit;
     EXPECT_NEAR(v, std::sqrt(2 * 9.81 * fallen), droplet_speed_unit + 1e-4) << i;
   }
-  const std::uint32_t all = std::accumulate(walk.passes.begin(), walk.passes.end(), 0U);
+  const std::uint32_t all =
+      std::accumulate(walk.passes.begin(), walk.passes.end(), 0U,
+                      [](std::uint32_t n, const DropletPasses& p) { return n + p.count; });
   EXPECT_EQ(all, static_cast<std::uint32_t>(width - 4)) << "straight down";
 }
 
@@ -112,7 +113,7 @@ TEST(DropletWalk, DragLimitsTheSpeed) {
   Walk walk(p);
   // v² = v² e^(-2 k L) + 2 g S L
   const double limit = 2 * 9.81 * slope * cell / (1 - std::exp(-2 * 0.2 * cell));
-  const float v = static_cast<float>(walk.speed[walk.sample(width - 3, start_y)]);
+  const float v = static_cast<float>(walk.passes[walk.sample(width - 3, start_y)].speed);
   EXPECT_NEAR(v * droplet_speed_unit, std::sqrt(limit), 0.02);
 }
 
