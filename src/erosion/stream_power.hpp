@@ -15,9 +15,9 @@
 //
 // Coarse to fine: most years pass on a grid of 64 cells along the longer side whatever the
 // resolution, then the change of the ground is laid (bicubic) over the input on a grid twice as
-// fine, half as many years pass there, and so on to the ground's own samples: so valleys lie where
-// they lie at every resolution, and whole ranges take seconds. Each grid takes a fixed number of
-// implicit steps (stream_power_solver.hpp), `level_steps`.
+// fine, 0.4 times as many years pass there, and so on to the ground's own samples: so valleys lie
+// where they lie at every resolution, and whole ranges take seconds. Each grid takes a fixed number
+// of implicit steps (stream_power_solver.hpp): 100 the first, 16 each further, 32 the last.
 //
 // Rock: erodibility and talus angle vary by `variation` as a fractal of the place with features of
 // `variation_size`, and with the map `hardness`.

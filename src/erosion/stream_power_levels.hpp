@@ -17,8 +17,8 @@ struct StreamPowerLevel {
   int steps = 0;
 };
 
-/// From the coarsest, with `base_cells` cells along the longer side, by halves to the input's own
-/// samples; of all years the first level takes most, each further half of the one before.
+/// From the coarsest, with 64 cells along the longer side, by halves to the input's own
+/// samples; of all years the first level takes most, each further 0.4 of the one before.
 std::vector<StreamPowerLevel> stream_power_levels(const Heightfield& input, double years,
                                                   std::uint64_t seed, Progress& progress);
 
