@@ -14,6 +14,7 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(HIGHWAY REQUIRED IMPORTED_TARGET libhwy)
 # By pkg-config: Debian's CMake package of OpenImageIO also wants its command-line tools.
 pkg_check_modules(OPENIMAGEIO REQUIRED IMPORTED_TARGET OpenImageIO)
+pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
 find_path(WOLD_TINYGLTF_INCLUDE tiny_gltf.h PATH_SUFFIXES tinygltf REQUIRED)
 find_library(WOLD_TINYGLTF_LIBRARY tinygltf REQUIRED)
 
