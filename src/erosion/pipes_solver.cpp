@@ -142,14 +142,10 @@ void PipeSolver::run(double seconds, Progress& progress) {
   if (steps < 1) return;
   const double step_seconds = seconds / steps;
   constants_ = constants_of(parameters_, start_.ground.cell, step_seconds);
-  const double cells = static_cast<double>(width_) * height_;
   for (double done = 0; done < steps;) {
     const int count = static_cast<int>(std::min(steps - done, 1.0 * steps_between_rains));
     let_rain(count * step_seconds, progress);
-    for (int k = 0; k < count; ++k) {
-      step(progress);
-      progress.advance(cells);
-    }
+    for (int k = 0; k < count; ++k) step(progress);
     let_slide(count * step_seconds, progress);
     done += count;
   }
@@ -177,8 +173,8 @@ void PipeSolver::fill_ends(Fields& fields) const {
 }
 
 void PipeSolver::step_band(int index, Progress& progress) {
-  progress.check();
   Band& band = bands_[static_cast<std::size_t>(index)];
+  progress.advance(static_cast<double>(width_) * (band.last - band.first));
   std::fill_n(band.moved.row(0), width_, 0);
   drive_y(band, band.first - 1);
   for (int j = band.first - 1; j <= band.last; ++j) {
