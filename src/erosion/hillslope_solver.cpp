@@ -68,12 +68,14 @@ void diffuse_rows(Grid<Real>& height, const LineMatrix<Real>& matrix, Progress& 
     std::vector<Real> turned(static_cast<std::size_t>(w) * lanes, Real{0});
     for (int r = 0; r < count; ++r) {
       const Real* row = height.row(first + r).data();
-      for (int i = 0; i < w; ++i) turned[static_cast<std::size_t>(i * lanes + r)] = row[i];
+      for (int i = 0; i < w; ++i)
+        turned[static_cast<std::size_t>(i) * lanes + static_cast<std::size_t>(r)] = row[i];
     }
     matrix.solve(turned.data(), lanes, lanes);
     for (int r = 0; r < count; ++r) {
       Real* row = height.row(first + r).data();
-      for (int i = 0; i < w; ++i) row[i] = turned[static_cast<std::size_t>(i * lanes + r)];
+      for (int i = 0; i < w; ++i)
+        row[i] = turned[static_cast<std::size_t>(i) * lanes + static_cast<std::size_t>(r)];
     }
     progress.check();
   });
