@@ -2,6 +2,8 @@
 // project's records, 2 cores: the add-on's shaders on llvmpipe 23 to 42 M, A.N.T. Landscape 18 to
 // 26 M cell-iterations/s.
 //
+// Other work on the machine counts in the rates; cell_passes/core_s is per second of one core.
+//
 // Floors of a pass over what lies in no cache, at 41 GB/s read and written on 2 threads: 8 bytes
 // per cell where all is loose (5.1 G cells/s), 16 where it lies on rock (2.6 G). The work on Zen 4
 // with 256-bit vectors: two faces of a cell, or the two diagonals of a square, take about 60
@@ -9,6 +11,9 @@
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
 
 #include "base/parallel.hpp"
 #include "erosion/thermal.hpp"
@@ -37,14 +42,19 @@ void passes_over(benchmark::State& state, bool layers) {
   const Grid<std::int32_t> height = in_units(field.height, units);
   Progress progress;
   double cells = 0;
+  std::clock_t busy = 0;
   for (auto _ : state) {
     SlideGround ground{height, layers ? height : Grid<std::int32_t>{}, {}, units.unit, field.cell};
+    const std::clock_t began = std::clock();
     cells += slide(ground, {.cliff = 50}, {0, passes}, false, progress).cell_passes;
+    busy += std::clock() - began;
   }
   using benchmark::Counter;
   state.counters["cell_passes/s"] = Counter(cells, Counter::kIsRate);
   state.counters["x_peer"] = Counter(cells / peer, Counter::kIsRate);
   state.counters["of_bandwidth"] = Counter(cells * (layers ? 16 : 8) / bandwidth, Counter::kIsRate);
+  state.counters["cell_passes/core_s"] =
+      cells * CLOCKS_PER_SEC / static_cast<double>(std::max<std::clock_t>(busy, 1));
   state.SetLabel(fmt::format("peer's figure: {} M cell-iterations/s", peer / 1e6));
 }
 BENCHMARK_CAPTURE(passes_over, loose, false)->Arg(1)->Arg(2)->UseRealTime();

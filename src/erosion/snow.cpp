@@ -53,10 +53,8 @@ Description<Snow> describe(const Snow&) {
            "How much more falls in the lee: at 1 twice as much on a slope of 45 degrees.")
       .add("tolerance", &Snow::tolerance, {.unit = "degrees", .min = 0.01, .max = 10},
            "How far below its angle snow may come to rest: less is more exact and slower.")
-      .add("ladder", &Snow::ladder, "Lets far falls slide over coarser ground first: much faster.")
       .add("max_passes", &Snow::max_passes, {.min = 1, .max = 1e9},
-           "Ends after so many passes over the ground, and over each coarser one, even if not all "
-           "rests.");
+           "Ends after so many passes over the ground even if not all rests.");
 }
 
 TerrainResult snow(const Heightfield& input, const Snow& parameters,
@@ -80,7 +78,7 @@ TerrainResult snow(const Heightfield& input, const Snow& parameters,
   const SlideRules rules{static_cast<double>(parameters.angle), 90,
                          static_cast<double>(parameters.tolerance)};
   context.progress.begin("snow", 0, "passes");
-  slide(ground, rules, {0, parameters.max_passes}, parameters.ladder, context.progress);
+  slide(ground, rules, {0, parameters.max_passes}, false, context.progress);
   context.progress.end();
 
   TerrainResult result{

@@ -6,7 +6,8 @@
 //
 // h (m) the ground, s a smooth step from 0 to 1 over `feather` around the snow line, m a map, w the
 // unit vector along the wind: where the ground falls along it is lee. How it slides:
-// thermal_slide.hpp.
+// thermal_slide.hpp, without the ladder: a thin cover crosses a cell per pass, and coarser cells
+// would bare the ground in blocks.
 
 #include <string>
 
@@ -24,7 +25,6 @@ struct Snow {
   float wind_from = 270;  ///< degrees clockwise from north
   float drift = 0;        ///< of depth, per unit of slope
   float tolerance = .5F;  ///< degrees
-  bool ladder = true;
   int max_passes = 1000;
 };
 
