@@ -54,8 +54,9 @@ void measure(benchmark::State& state, Work work, const T& parameters, int size) 
 
 void pipes_one_grid(benchmark::State& state) {
   Pipes p;
-  p.start_cell = 1;
+  p.start_cell = 1;  // below the samples: one grid
   p.duration = 0.02F;
+  p.lakes = false;
   measure(state, pipes, p, static_cast<int>(state.range(1)));
 }
 BENCHMARK(pipes_one_grid)
