@@ -36,8 +36,8 @@ Heightfield waves(int samples, double slope, int chance = 0) {
   const std::vector<double> x = along(0);
   const std::vector<double> y = along(1);
   return field_of(samples, samples, 10, {}, [&](DVec2 p) {
-    return x[static_cast<std::size_t>(p.x / 10 + 0.5)] +
-           y[static_cast<std::size_t>(p.y / 10 + 0.5)];
+    return x[static_cast<std::size_t>(std::lround(p.x / 10))] +
+           y[static_cast<std::size_t>(std::lround(p.y / 10))];
   });
 }
 

@@ -14,7 +14,6 @@ namespace {
 
 using testing_terrain::error_text;
 using testing_terrain::field_of;
-using testing_terrain::largest_difference;
 using testing_terrain::run;
 using testing_terrain::Steps;
 
