@@ -7,6 +7,7 @@
 #include "base/parallel.hpp"
 #include "base/smoothstep.hpp"
 #include "erosion/ground.hpp"
+#include "erosion/thermal_rest.hpp"
 #include "erosion/thermal_units.hpp"
 #include "terrain/analysis.hpp"
 #include "terrain/field_map.hpp"
@@ -52,9 +53,10 @@ Description<Snow> describe(const Snow&) {
       .add("drift", &Snow::drift, {.min = 0, .max = 10},
            "How much more falls in the lee: at 1 twice as much on a slope of 45 degrees.")
       .add("tolerance", &Snow::tolerance, {.unit = "degrees", .min = 0.01, .max = 10},
-           "How far below its angle snow may come to rest: less is more exact and slower.")
+           "How far from its angle snow may come to rest: less is more exact and slower.")
       .add("max_passes", &Snow::max_passes, {.min = 1, .max = 1e9},
-           "Ends after so many passes over the ground even if not all rests.");
+           "Most passes over the ground; what is still on its way then runs down and lies down at "
+           "once.");
 }
 
 TerrainResult snow(const Heightfield& input, const Snow& parameters,
@@ -79,6 +81,7 @@ TerrainResult snow(const Heightfield& input, const Snow& parameters,
                          static_cast<double>(parameters.tolerance)};
   context.progress.begin("snow", 0, "passes");
   slide(ground, rules, {0, parameters.max_passes}, false, context.progress);
+  bring_to_rest(ground, rules, context.progress);
   context.progress.end();
 
   TerrainResult result{

@@ -4,6 +4,7 @@
 
 #include "base/parallel.hpp"
 #include "erosion/ground.hpp"
+#include "erosion/thermal_rest.hpp"
 #include "erosion/thermal_units.hpp"
 
 namespace wold {
@@ -72,8 +73,8 @@ Description<Thermal> describe(const Thermal&) {
       .add("ladder", &Thermal::ladder,
            "Lets far falls slide over coarser ground first: much faster, without years.")
       .add("max_passes", &Thermal::max_passes, {.min = 1, .max = 1e9},
-           "Ends after so many passes over the ground, and over each coarser one, even if not all "
-           "rests.");
+           "Most passes over the ground, with twice as many over each coarser one; what is still "
+           "on its way then runs down and lies down at once. Without years.");
 }
 
 TerrainResult thermal(const Heightfield& input, const Thermal& parameters,
@@ -88,7 +89,9 @@ TerrainResult thermal(const Heightfield& input, const Thermal& parameters,
   const double spread =
       static_cast<double>(parameters.rate) * static_cast<double>(parameters.years);
   context.progress.begin("thermal", 0, "passes");
-  slide(ground, rules, {spread, parameters.max_passes}, parameters.ladder, context.progress);
+  slide(ground, rules, {spread, spread > 0 ? 0 : parameters.max_passes}, parameters.ladder,
+        context.progress);
+  if (!(spread > 0)) bring_to_rest(ground, rules, context.progress);
   context.progress.end();
 
   const bool sand = is_sand(parameters);

@@ -8,7 +8,11 @@
 // and only `loose_depth` moves.
 //
 // It either goes on until all rests, whatever the resolution, or for `years`, as the diffusion of
-// too steep slopes with the diffusivity `rate`.
+// too steep slopes with the diffusivity `rate`. Until all rests: then no sample that holds loose
+// material is steeper towards any of its eight neighbours than `talus_angle` and the `tolerance`,
+// whatever the ground and however few the passes (thermal_rest.hpp); the gradient, which neighbours
+// along the grid show less of, is a degree or two steeper here and there. Rock above `cliff_angle`
+// may stand where `max_passes` ended its breaking.
 
 #include <string>
 
@@ -28,7 +32,7 @@ struct Thermal {
   float years = 0;        ///< 0: until all rests
   float rate = 1;         ///< m²/year
   bool ladder = true;
-  int max_passes = 1000;
+  int max_passes = 300;
 };
 
 Description<Thermal> describe(const Thermal&);

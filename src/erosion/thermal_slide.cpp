@@ -23,6 +23,9 @@ constexpr double straight_rate = 0.2;
 constexpr double diagonal_rate = 0.125;
 /// Passes before a coarser rung's, so that what one coarse cell cannot show is level enough.
 constexpr int first_passes = 12;
+constexpr int most_passes = 1 << 27;
+/// A ladder's top is small, or there is none: so many times the passes.
+constexpr int passes_at_top = 8;
 /// A rung is at rest as well when nothing moves on slopes above the angle plus the tolerance;
 /// that is looked at after so many passes.
 constexpr int passes_between_looks = 16;
@@ -245,17 +248,20 @@ class Rung {
 SlideWork slide_rung(SlideGround& ground, const SlideRules& rules, const SlideLimit& limit,
                      bool with_ladder, Progress& progress) {
   double before = 0;
+  int factor = 1;
   Rung rung(ground, rules);
+  if (with_ladder && !has_coarser_rung(ground)) factor = passes_at_top;
   if (with_ladder && has_coarser_rung(ground)) {
     before = rung.run({0, std::min(first_passes, limit.passes)}, progress).cell_passes;
     rung.store();
     SlideGround coarse = coarser_rung(ground);
     const SlideGround unchanged = coarse;
-    before += slide_rung(coarse, rules, limit, true, progress).cell_passes;
+    const int passes = 2 * std::min(limit.passes, most_passes);
+    before += slide_rung(coarse, rules, {0, passes}, true, progress).cell_passes;
     lay_over(ground, unchanged, coarse);
     rung.load();
   }
-  SlideWork work = rung.run(limit, progress);
+  SlideWork work = rung.run({limit.spread, factor * std::min(limit.passes, most_passes)}, progress);
   rung.store();
   work.cell_passes += before;
   return work;

@@ -33,7 +33,8 @@
 // itself. The foot of a slope is wider by about one cell of the coarsest rung that moved it.
 //
 // At rest is what no longer moves; and what moves only in films thinner than 2 % of a cell, or on
-// slopes that exceed R by less than the tolerance.
+// slopes that exceed R by less than the tolerance. Gullies and long slopes near R stay on the move
+// for thousands of passes: thermal_rest.hpp ends that.
 //
 // Where nothing moved in and around a tile of the grid, nothing will: it is left out of the next
 // pass.
@@ -70,7 +71,7 @@ inline constexpr std::int32_t slide_range = 1 << 28;
 
 struct SlideLimit {
   double spread = 0;  ///< K t, m²: for so long; 0: until all rests
-  int passes = 0;     ///< at most, over the ground itself, if above 0
+  int passes = 0;     ///< at most, over the ground itself, if above 0; more over coarser rungs
 };
 
 struct SlideWork {

@@ -58,6 +58,28 @@ TEST(Snow, SlidesOffCliffsAndLiesAtTheirFeet) {
     EXPECT_GE(result.field.height.values()[k], ground.height.values()[k]);
 }
 
+TEST(Snow, RestsOnMountains) {
+  const Heightfield ground = mountains(129);
+  Snow parameters;
+  parameters.angle = 35;
+  for (const int passes : {1, 1000}) {
+    parameters.max_passes = passes;
+    const TerrainResult result = run(snow, ground, parameters);
+    expect_balanced(result);
+    const Grid<float>& depth = result.maps.at("snow");
+    const Grid<float>& height = result.field.height;
+    const auto most = static_cast<float>(std::tan(radians(35.51)) * ground.cell);
+    for (int j = 0; j < 128; ++j)
+      for (int i = 0; i < 128; ++i) {
+        const float east = height(i, j) - height(i + 1, j);
+        const float north = height(i, j) - height(i, j + 1);
+        EXPECT_FALSE(depth(i, j) > 0.02F && std::max(east, north) > most) << i << ' ' << j;
+        EXPECT_FALSE(depth(i + 1, j) > 0.02F && -east > most) << i << ' ' << j;
+        EXPECT_FALSE(depth(i, j + 1) > 0.02F && -north > most) << i << ' ' << j;
+      }
+  }
+}
+
 TEST(Snow, DriftsIntoTheLee) {
   const Heightfield ridge =
       field_of(41, 5, 10, {}, [](DVec2 p) { return 1000 - 0.4 * std::abs(p.x - 200); });

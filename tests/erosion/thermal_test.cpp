@@ -31,10 +31,26 @@ Heightfield column(int samples, double cell, double radius, double cone_radius) 
                   [&](DVec2 p) { return glm::length(p - DVec2(middle)) < radius ? height : 0; });
 }
 
-Heightfield mountains(int resolution) {
+Heightfield mountains(int resolution, double size = 2000) {
   Steps steps;
   steps.add("ridged", {});
-  return steps.evaluate({.size = 2000, .resolution = resolution}).field;
+  return steps.evaluate({.size = size, .resolution = resolution}).field;
+}
+
+/// The steepest slope down to any of eight neighbours from a sample that holds more loose material
+/// than 2 % of a cell, degrees.
+double steepest_loose(const Heightfield& field, const Grid<float>& loose) {
+  double steepest = 0;
+  for (int j = 0; j < loose.height(); ++j)
+    for (int i = 0; i < loose.width(); ++i)
+      for (int k = 0; k < 9; ++k) {
+        const IVec2 to(i + k % 3 - 1, j + k / 3 - 1);
+        if (static_cast<double>(loose(i, j)) <= 0.02 * field.cell || k == 4) continue;
+        if (to.x < 0 || to.y < 0 || to.x >= loose.width() || to.y >= loose.height()) continue;
+        const double drop = static_cast<double>(field.height(i, j)) - field.height(to.x, to.y);
+        steepest = std::max(steepest, drop / (field.cell * std::hypot(to.x - i, to.y - j)));
+      }
+  return degrees(std::atan(steepest));
 }
 
 /// The angle of the flank from the middle in a direction, degrees.
@@ -115,6 +131,36 @@ TEST(Thermal, NoSlopeStaysSteeperThanTheTolerance) {
       for (int i = 1; i < slope.width() - 1; ++i) ASSERT_LT(slope(i, j), angle + 0.6F);
     expect_balanced(result);
   }
+}
+
+TEST(Thermal, ScreeRestsOnMountains) {
+  for (const int resolution : {257, 513}) {
+    const Heightfield ground = mountains(resolution, 4000);
+    const TerrainResult result = run(thermal, ground, Thermal{});
+    EXPECT_LT(steepest_loose(result.field, result.maps.at("sediment")), 33.51) << resolution;
+    EXPECT_GT(steepest_step(result.field.height, ground.cell), 45);
+    expect_balanced(result);
+  }
+}
+
+TEST(Thermal, LooseMaterialRestsAfterAnyNumberOfPasses) {
+  for (const int passes : {1, 20})
+    for (const float cliff : {0.0F, 40.0F, 90.0F}) {
+      Thermal parameters;
+      parameters.talus_angle = 25;
+      parameters.cliff_angle = cliff;
+      parameters.loose_depth = 3;
+      parameters.max_passes = passes;
+      parameters.ladder = passes > 1;
+      const Heightfield ground = mountains(97);
+      const TerrainResult result = run(thermal, ground, parameters);
+      if (cliff > 0) {
+        EXPECT_LT(steepest_loose(result.field, result.maps.at("sediment")), 25.51) << cliff;
+      } else {
+        EXPECT_LT(steepest_step(result.field.height, ground.cell), 25.51);
+      }
+      expect_balanced(result);
+    }
 }
 
 TEST(Thermal, CliffsBreakAndScreeLiesAtTheirFeet) {
