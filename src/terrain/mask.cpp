@@ -118,6 +118,7 @@ Description<Mask> describe(const Mask&) {
            "Values of the map that become 0 and 1.")
       .add("logarithmic", &M::logarithmic,
            "Measures the map's values by their magnitude, as areas want it.")
+      .add("times", &M::times, "Another map that this one is multiplied by: inside both.")
       .add("smooth", &M::smooth, {.unit = "m", .min = 0, .max = 1e5},
            "Smooths the ground before slope and curvature are taken.")
       .add("invert", &M::invert, "Turns inside and outside over.");
@@ -132,6 +133,11 @@ TerrainResult make_mask(const Heightfield& input, const Mask& parameters,
   Grid<float> map = source_map(smooth, parameters, context);
   if (parameters.invert)
     for (float& value : map.values()) value = 1 - value;
+  if (!parameters.times.empty()) {
+    const Grid<float> other = map_over(input, parameters.times, context);
+    for (std::size_t k = 0; k < map.size(); ++k)
+      map.values()[k] *= std::clamp(other.values()[k], 0.0F, 1.0F);
+  }
   TerrainResult result{input, {}};
   result.maps["mask"] = std::move(map);
   return result;

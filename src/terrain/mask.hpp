@@ -28,6 +28,7 @@ struct Mask {
   std::string map = {};      ///< as `map_over` finds it
   Range map_range{0, 1};     ///< values of the map that become 0 and 1
   bool logarithmic = false;  ///< of the map's values: for areas and flow, which span magnitudes
+  std::string times = {};    ///< another map, 0 to 1, that this one is multiplied by
   float smooth = 0;          ///< m
   bool invert = false;
 };

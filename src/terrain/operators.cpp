@@ -23,6 +23,10 @@ OperatorList terrain_operators() {
   const auto other = [](const Combine& parameters) {
     return std::vector<std::string>{parameters.with};
   };
+  const auto maps_of_mask = [](const Mask& parameters) {
+    const bool of_map = parameters.from == MaskSource::map;
+    return std::vector<std::string>{of_map ? parameters.map : "", parameters.times};
+  };
   const auto map_of = [](const auto& parameters) {
     return std::vector<std::string>{parameters.map};
   };
@@ -47,7 +51,8 @@ OperatorList terrain_operators() {
       terrain_operator(power),
       terrain_operator(combine, {.references = other}),
       terrain_operator(add_map, {.map_references = map_of}),
-      terrain_operator(make_mask, {.reach = reach, .map_references = map_of, .maps = {"mask"}}),
+      terrain_operator(make_mask,
+                       {.reach = reach, .map_references = maps_of_mask, .maps = {"mask"}}),
   };
 }
 

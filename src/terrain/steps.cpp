@@ -115,7 +115,7 @@ class Evaluation {
     const Heightfield& input =
         step.settings.input.empty() ? ground_ : context.step(step.settings.input).field;
     progress_.begin(name, input.height.height(), "rows");
-    TerrainResult result = run_at_cell(op, input, step.parameters, step.settings.cell, context);
+    TerrainResult result = run_at_cell(op, input, step.parameters, cell_of(step, input), context);
     if (!result.field.height.same_shape(input.height))
       throw Error(ErrorKind::internal,
                   fmt::format("operator '{}' changed the size of the terrain", step.op));
@@ -125,6 +125,13 @@ class Evaluation {
     progress_.check();
     progress_.end();
     keep(step, std::move(result));
+  }
+
+  /// Coarse land around the terrain is not worth finer steps than its own samples.
+  double cell_of(const TerrainStep& step, const Heightfield& input) const {
+    const double cell = step.settings.cell;
+    const bool surroundings = input.size().x > 1.5 * domain_.size.x;
+    return cell > 0 && surroundings && input.cell > cell ? 0 : cell;
   }
 
   void keep(const TerrainStep& step, TerrainResult result) {
