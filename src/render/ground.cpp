@@ -109,19 +109,27 @@ Ground::Ground(Heightfield field, Heightfield surroundings, GroundMaterial mater
   }
 }
 
-GroundSample Ground::base(DVec2 place) const {
+bool Ground::inside_field(DVec2 place) const {
+  return surroundings_.height.empty() || field_.contains(place);
+}
+
+float Ground::lift(DVec2 place) const {
   const DVec2 low = field_.origin;
   const DVec2 high = low + field_.size();
-  const DVec2 inside = glm::clamp(place, low, high);
-  if (inside == place || surroundings_.height.empty()) return ground_at(field_, inside);
-  // Outside: the difference at the nearest border point is carried outwards and fades. Its change
-  // along the border is small beside the slope of the surroundings and is left out of the gradient.
+  const DVec2 border = glm::clamp(place, low, high);
+  const float step = ground_at(field_, border).height - ground_at(surroundings_, border).height;
+  const auto distance = static_cast<float>(glm::distance(border, place));
+  const auto width = static_cast<float>(0.5 * std::max(high.x - low.x, high.y - low.y));
+  return step * (1 - smoothstep(0, width, distance));
+}
+
+GroundSample Ground::base(DVec2 place) const {
+  if (inside_field(place))
+    return ground_at(field_, glm::clamp(place, field_.origin, field_.origin + field_.size()));
+  // The lift's change along the border is small beside the slope of the surroundings and is left
+  // out of the gradient.
   GroundSample s = ground_at(surroundings_, place);
-  const float step = ground_at(field_, inside).height - ground_at(surroundings_, inside).height;
-  const auto distance = static_cast<float>(glm::distance(inside, place));
-  const auto width = static_cast<float>(0.25 * std::max(high.x - low.x, high.y - low.y));
-  const float fade = 1 - smoothstep(0, width, distance);
-  s.height += step * fade;
+  s.height += lift(place);
   return s;
 }
 
@@ -162,8 +170,9 @@ GroundSample Ground::with_detail(GroundSample s, DVec2 place, float spacing) con
 }
 
 std::optional<float> Ground::water_level(DVec2 place) const {
-  if (dressing_.inner_water.contains(place)) return dressing_.inner_water.level_at(place);
-  return dressing_.outer_water.level_at(place);
+  if (inside_field(place)) return dressing_.inner_water.level_at(place);
+  const std::optional<float> level = dressing_.outer_water.level_at(place);
+  return level ? std::optional(*level + lift(place)) : std::nullopt;
 }
 
 float Ground::water_depth(DVec2 place) const {

@@ -89,6 +89,10 @@ class Ground {
     float snow = 0;
     float canopy = 0;
   };
+  bool inside_field(DVec2 place) const;
+  /// What the surroundings are raised by at a place, m: the difference at the nearest point of the
+  /// field's border, fading with distance.
+  float lift(DVec2 place) const;
   /// Share of tree crowns seen from afar: none inside the field, where plants stand themselves.
   float canopy_share(DVec2 place, float slope) const;
   GroundSample with_detail(GroundSample base, DVec2 place, float spacing) const;
