@@ -13,6 +13,7 @@ struct Session;
 void add_render(CLI::App& app, Session& session);
 void add_terrain(CLI::App& app, Session& session);
 void add_erode(CLI::App& app, Session& session);
+void add_analyze(CLI::App& app, Session& session);
 void add_check(CLI::App& app, Session& session);
 void add_new(CLI::App& app, Session& session);
 void add_help(CLI::App& app, Session& session);

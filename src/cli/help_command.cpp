@@ -1,14 +1,17 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <memory>
+#include <set>
 
 #include "base/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/session.hpp"
+#include "erosion/operators.hpp"
 #include "image/atomic_file.hpp"
 #include "scene/scene.hpp"
 
@@ -35,6 +38,14 @@ void print_set(const ParameterSet& set, const void* defaults) {
   write_output(help_text(set, defaults));
 }
 
+/// "Makes the maps a, b." or nothing.
+std::string maps_text(const TerrainOperator& op, const char* quote) {
+  if (op.maps.empty()) return {};
+  std::vector<std::string> names;
+  for (const std::string& map : op.maps) names.push_back(quote + map + quote);
+  return fmt::format("\nMakes the maps {}.\n", fmt::join(names, ", "));
+}
+
 /// Prints the help of a command, a section or an operator. Throws Error(usage) for anything else.
 void explain(const CLI::App& app, const std::string& topic) {
   std::vector<std::string> known;
@@ -57,6 +68,7 @@ void explain(const CLI::App& app, const std::string& topic) {
     known.push_back(op.name());
     if (op.name() != topic) continue;
     print_set(op.defaults.parameters(), op.defaults.data());
+    write_output(maps_text(op, ""));
     const StepSettings common;
     write_output("\nBesides, as for every step: ");
     print_set(describe(common), &common);
@@ -65,6 +77,17 @@ void explain(const CLI::App& app, const std::string& topic) {
   if (!found)
     throw Error(ErrorKind::usage,
                 fmt::format("there is no help on '{}'.{}", topic, suggestion(topic, known)));
+}
+
+std::string operator_page(const TerrainOperator& op, bool has_picture) {
+  std::string page = reference_markdown(op.defaults.parameters(), op.defaults.data());
+  page += maps_text(op, "`");
+  if (!has_picture) return page;
+  return page +
+         fmt::format(
+             "\n![Before and after]({0}.webp)\n\n"
+             "Before and after: [scenes/reference/{0}.toml](../../scenes/reference/{0}.toml).\n",
+             op.name());
 }
 
 /// Markdown pages, one per operator and one of all sections, and the JSON Schema, into a folder.
@@ -78,10 +101,12 @@ void write_reference(const std::string& folder) {
   std::string index =
       "# Reference\n\nWritten by `wold help --write-reference`.\n\n- [Sections of a scene "
       "file](scene.md)\n- [JSON Schema](scene.schema.json)\n\nOperators of `[[terrain.step]]`:\n\n";
+  std::set<std::string> eroding;
+  for (const TerrainOperator& op : erosion_operators()) eroding.insert(op.name());
   for (const TerrainOperator& op : scene_operators()) {
     index += fmt::format("- [{}]({}.md): {}\n", op.name(), op.name(), op.text());
     write_file(fmt::format("{}/{}.md", folder, op.name()),
-               reference_markdown(op.defaults.parameters(), op.defaults.data()));
+               operator_page(op, eroding.contains(op.name())));
   }
   write_file(folder + "/scene.md", sections);
   write_file(folder + "/README.md", index);

@@ -29,7 +29,7 @@ TEST(Commands, VersionAndHelp) {
   EXPECT_TRUE(std::regex_match(version.out, std::regex("wold \\d+\\.\\d+\\.\\d+\n")));
   const Outcome help = place.run({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  for (const char* command : {"render", "terrain", "erode", "check", "new", "help"}) {
+  for (const char* command : {"render", "terrain", "erode", "analyze", "check", "new", "help"}) {
     EXPECT_TRUE(contains(help.out, command));
     const Outcome of_command = place.run({command, "--help"});
     EXPECT_EQ(of_command.exit_code, 0);

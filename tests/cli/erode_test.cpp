@@ -8,6 +8,7 @@
 
 #include "image/io.hpp"
 #include "process.hpp"
+#include "terrain/elevation.hpp"
 #include "terrain/export.hpp"
 
 namespace wold {
