@@ -68,6 +68,7 @@ void one_tile(benchmark::State& state) {
   const DropletRates rates = droplet_rates(Droplets{}, plane.cell, ground.quantum());
   DropletWorld world;
   world.width = world.height = samples;
+  world.stride = droplet_stride(samples);
   world.cells = ground.cells();
   std::vector<Drop> drops(512);
   for (std::size_t k = 0; k < drops.size(); ++k) {
@@ -77,7 +78,7 @@ void one_tile(benchmark::State& state) {
     drops[k].left = rates.steps;
     drops[k].direction = {1, 0};
   }
-  const std::vector<DropletCell> at_first(ground.cells(), ground.cells() + samples * samples);
+  const std::vector<DropletCell> at_first(ground.cells(), ground.cells() + world.stride * samples);
   double best = 0;
   for (auto _ : state) {
     std::copy(at_first.begin(), at_first.end(), ground.cells());

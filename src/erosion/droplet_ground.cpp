@@ -66,7 +66,9 @@ void spread_row(const std::int32_t* in, std::int32_t* out, int width,
 void spread_column(const std::vector<std::int32_t>& in, int j, int width, int height,
                    const std::vector<float>& kernel, const float* softness,
                    std::vector<std::int32_t>& out) {
-  const auto offset = [width](int row) { return static_cast<std::ptrdiff_t>(row) * width; };
+  const auto offset = [stride = droplet_stride(width)](int row) {
+    return static_cast<std::ptrdiff_t>(row) * stride;
+  };
   const std::int32_t* here = in.data() + offset(j);
   std::copy_n(here, width, out.data());
   for (int k = 1; k <= static_cast<int>(kernel.size()); ++k) {
@@ -85,7 +87,9 @@ template <class Change, class Use>
 void spread(int width, int height, const std::vector<float>& kernel, const float* softness,
             std::vector<std::int32_t>& along_rows, const Progress& progress, const Change& change,
             const Use& use) {
-  const auto offset = [width](int j) { return static_cast<std::ptrdiff_t>(j) * width; };
+  const auto offset = [stride = droplet_stride(width)](int j) {
+    return static_cast<std::ptrdiff_t>(j) * stride;
+  };
   parallel_for(
       0, height,
       [&](int j) {
@@ -116,27 +120,43 @@ struct BankRows {
 
 /// What is too steep, and what is loose, in one direction.
 struct SlideRates {
-  float stable = 0;  ///< quanta
-  float creep = 0;   ///< share of a difference
+  std::int32_t stable = 0;  ///< quanta
+  float creep = 0;          ///< share of a difference
 };
 
-/// What samples of `here` get from those of `there`, in quanta.
+SlideRates slide_rates(double stable, double creep) {
+  constexpr double largest = 0x1p30;  // more than any two samples differ by
+  return {static_cast<std::int32_t>(std::min(stable, largest)),
+          static_cast<float>(std::min(creep, 0.1))};
+}
+
+/// What samples of `here` get from those of `there`, in quanta. Without branches, for vectors.
 template <bool hardness>
-void slide(const BankRows& here, const BankRows& there, int count, const SlideRates& rates,
+void slide(const BankRows& here, const BankRows& there, int count, SlideRates rates,
            std::int32_t* out) {
   constexpr float share = 0.1F;  // eight neighbours together take less than the surplus
+  const std::int32_t stable = rates.stable;
   for (int i = 0; i < count; ++i) {
-    const auto difference = static_cast<float>(there.height[i] - here.height[i]);
-    const auto at_first = static_cast<float>(there.initial[i] - here.initial[i]);
-    const float height = std::abs(difference);
-    const float allowed = std::max(rates.stable, std::abs(at_first));
-    float surplus = std::max(0.0F, height - allowed) * share;
-    if constexpr (hardness) surplus *= difference > 0 ? there.softness[i] : here.softness[i];
-    const std::int32_t laid =
-        difference > 0 ? there.height[i] - there.initial[i] : here.height[i] - here.initial[i];
-    const float loose = std::min(std::max(0.0F, static_cast<float>(laid)), height);
-    out[i] = static_cast<std::int32_t>(
-        std::copysign(std::max(surplus, loose * rates.creep), difference));
+    const std::int32_t difference = there.height[i] - here.height[i];
+    const std::int32_t from_there = -static_cast<std::int32_t>(difference > 0);  // a mask
+    const std::int32_t laid_there = there.height[i] - there.initial[i];
+    const std::int32_t laid_here = here.height[i] - here.initial[i];
+    const std::int32_t height = std::abs(difference);
+    const std::int32_t at_first = std::abs(there.initial[i] - here.initial[i]);
+    const std::int32_t allowed = at_first > stable ? at_first : stable;
+    const std::int32_t over = height - allowed;
+    float surplus = static_cast<float>(over > 0 ? over : 0) * share;
+    if constexpr (hardness) {
+      const float soft_here = here.softness[i];
+      const float soft_there = there.softness[i];
+      surplus *= difference > 0 ? soft_there : soft_here;
+    }
+    const std::int32_t laid = laid_here ^ ((laid_here ^ laid_there) & from_there);
+    const std::int32_t loose = std::min(laid > 0 ? laid : 0, height);
+    const auto slides = static_cast<std::int32_t>(surplus);
+    const auto creeps = static_cast<std::int32_t>(static_cast<float>(loose) * rates.creep);
+    const std::int32_t amount = slides > creeps ? slides : creeps;
+    out[i] = (amount ^ ~from_there) - ~from_there;
   }
 }
 
@@ -147,7 +167,9 @@ void add(const std::int32_t* amounts, int count, std::int32_t sign, std::int32_t
 }  // namespace
 
 DropletGround::DropletGround(const Heightfield& input)
-    : width_(input.height.width()), height_(input.height.height()) {
+    : width_(input.height.width()),
+      height_(input.height.height()),
+      stride_(droplet_stride(width_)) {
   const HeightStatistics range = height_statistics(input);
   const double low = static_cast<double>(range.min);
   const double high = static_cast<double>(range.max);
@@ -155,14 +177,14 @@ DropletGround::DropletGround(const Heightfield& input)
   int exponent = 0;
   std::frexp(std::max(high - low, 1e-30), &exponent);  // range < 2^exponent
   quantum_ = std::ldexp(1.0, std::max(-20, exponent - 29));
-  cells_.resize(input.height.size());
+  cells_.resize(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height_));
   before_.resize(cells_.size());
   initial_.resize(cells_.size());
   spread_.resize(cells_.size());
   parallel_for(
       0, height_,
       [&](int j) {
-        const std::size_t first = static_cast<std::size_t>(j) * static_cast<std::size_t>(width_);
+        const auto first = static_cast<std::size_t>(row_at(j));
         const auto row = input.height.row(j);
         for (std::size_t i = 0; i < row.size(); ++i)
           initial_[first + i] = before_[first + i] = cells_[first + i].height = quantised(row[i]);
@@ -177,41 +199,37 @@ std::int32_t DropletGround::quantised(float height) const {
 void DropletGround::spread_changes(double radius_cells, const float* softness,
                                    const Progress& progress) {
   const std::vector<float> kernel = brush(radius_cells);
-  const auto first = [this](int j) { return static_cast<std::ptrdiff_t>(j) * width_; };
   spread(
       width_, height_, kernel, softness, spread_, progress,
       [&](int j, std::int32_t* change) {
-        const DropletCell* cells = cells_.data() + first(j);
-        const std::int32_t* before = before_.data() + first(j);
+        const DropletCell* cells = cells_.data() + row_at(j);
+        const std::int32_t* before = before_.data() + row_at(j);
         for (int i = 0; i < width_; ++i) change[i] = cells[i].height - before[i];
       },
       [&](int j, const std::int32_t* change) {
-        DropletCell* cells = cells_.data() + first(j);
-        std::int32_t* before = before_.data() + first(j);
+        DropletCell* cells = cells_.data() + row_at(j);
+        std::int32_t* before = before_.data() + row_at(j);
         for (int i = 0; i < width_; ++i) before[i] = cells[i].height = before[i] + change[i];
       });
 }
 
 void DropletGround::settle(double bank_slope, double creep, double cell, const float* softness,
                            const Progress& progress) {
-  const SlideRates straight{static_cast<float>(bank_slope * cell / quantum_),
-                            static_cast<float>(std::min(creep, 0.1))};
-  const SlideRates diagonal{straight.stable * std::sqrt(2.0F), straight.creep};
+  const double stable = bank_slope * cell / quantum_;
+  const SlideRates straight = slide_rates(stable, creep);
+  const SlideRates diagonal = slide_rates(stable * std::sqrt(2.0), creep);
   const auto rows_at = [&](int j, int i) -> BankRows {
-    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(j) * width_ + i;
+    const std::ptrdiff_t first = row_at(j) + i;
     return {before_.data() + first, initial_.data() + first,
             softness == nullptr ? nullptr : softness + first};
   };
   const auto slide_rows = softness == nullptr ? slide<false> : slide<true>;
-  const auto out_row = [&](int j) {
-    return spread_.data() + static_cast<std::ptrdiff_t>(j) * width_;
-  };
+  const auto out_row = [&](int j) { return spread_.data() + row_at(j); };
   const int tasks = (height_ + rows_of_task - 1) / rows_of_task;
   parallel_for(0, tasks, [&](int task) {
     const int low = task * rows_of_task;
     const int high = std::min(height_, low + rows_of_task);
-    std::copy(before_.data() + static_cast<std::ptrdiff_t>(low) * width_,
-              before_.data() + static_cast<std::ptrdiff_t>(high) * width_, out_row(low));
+    std::copy(before_.data() + row_at(low), before_.data() + row_at(high), out_row(low));
     std::vector<std::int32_t> amounts(static_cast<std::size_t>(width_));
     // Between sample i + a of row j and sample i + b of row k; both if they belong to this task.
     const auto pairs = [&](int j, int a, int k, int b, const SlideRates& rates) {
@@ -232,7 +250,7 @@ void DropletGround::settle(double bank_slope, double creep, double cell, const f
   parallel_for(
       0, height_,
       [&](int j) {
-        const std::size_t first = static_cast<std::size_t>(j) * static_cast<std::size_t>(width_);
+        const auto first = static_cast<std::size_t>(row_at(j));
         for (std::size_t k = first; k < first + static_cast<std::size_t>(width_); ++k)
           before_[k] = cells_[k].height = spread_[k];
       },
@@ -240,18 +258,20 @@ void DropletGround::settle(double bank_slope, double creep, double cell, const f
 }
 
 Grid<float> DropletGround::eroded(const Heightfield& input) const {
-  Grid<float> out(width_, height_);
-  parallel_for(
-      0, height_,
-      [&](int j) {
-        const auto in = input.height.row(j);
-        const auto row = out.row(j);
-        const DropletCell* cells = cells_.data() + static_cast<std::ptrdiff_t>(j) * width_;
-        for (std::size_t i = 0; i < row.size(); ++i)
-          row[i] = static_cast<float>(static_cast<double>(in[i]) +
-                                      quantum_ * (cells[i].height - quantised(in[i])));
-      },
-      rows_of_task);
+  Grid<float> out = input.height;
+  double left = 0;
+  for (int j = 0; j < height_; ++j) {
+    const DropletCell* cells = cells_.data() + row_at(j);
+    const std::int32_t* initial = initial_.data() + row_at(j);
+    for (int i = 0; i < width_; ++i) {
+      const std::int32_t change = cells[i].height - initial[i];
+      if (change == 0) continue;
+      float& height = out(i, j);
+      const double exact = static_cast<double>(height) + quantum_ * change + left;
+      height = static_cast<float>(exact);
+      left = exact - static_cast<double>(height);
+    }
+  }
   return out;
 }
 
@@ -262,7 +282,7 @@ Grid<float> DropletGround::wear(double radius_cells, const float* softness,
   spread(
       width_, height_, brush(radius_cells), softness, along_rows, progress,
       [&](int j, std::int32_t* change) {
-        const DropletCell* cells = cells_.data() + static_cast<std::ptrdiff_t>(j) * width_;
+        const DropletCell* cells = cells_.data() + row_at(j);
         for (int i = 0; i < width_; ++i) change[i] = -cells[i].wear;
       },
       [&](int j, const std::int32_t* change) {
@@ -277,7 +297,7 @@ double DropletGround::total_wear() const {
   const std::int64_t sum = parallel_reduce(
       0, height_, std::int64_t{0},
       [&](int j) {
-        const DropletCell* cells = cells_.data() + static_cast<std::ptrdiff_t>(j) * width_;
+        const DropletCell* cells = cells_.data() + row_at(j);
         std::int64_t of_row = 0;
         for (int i = 0; i < width_; ++i) of_row += cells[i].wear;
         return of_row;

@@ -17,6 +17,7 @@ class DropletGround {
 
   double quantum() const { return quantum_; }
   std::int32_t quantised(float height) const;
+  /// In rows `droplet_stride(width)` apart, as all arrays here and softness are.
   DropletCell* cells() { return cells_.data(); }
 
   /// Spreads what has changed since the last call as a brush of that radius would have: with a
@@ -32,7 +33,8 @@ class DropletGround {
   void settle(double bank_slope, double creep, double cell, const float* softness,
               const Progress& progress);
 
-  /// input + change, m.
+  /// input + change, m. What rounding to float leaves is handed to the next sample that changed,
+  /// so in all no more is lost than the last place of one height.
   Grid<float> eroded(const Heightfield& input) const;
   /// Taken up, m, spread as the changes were.
   Grid<float> wear(double radius_cells, const float* softness, const Progress& progress) const;
@@ -40,8 +42,11 @@ class DropletGround {
   double total_wear() const;
 
  private:
+  std::ptrdiff_t row_at(int j) const { return static_cast<std::ptrdiff_t>(j) * stride_; }
+
   int width_ = 0;
   int height_ = 0;
+  int stride_ = 0;
   double base_ = 0;
   double quantum_ = 1;
   std::vector<DropletCell> cells_;

@@ -30,8 +30,8 @@ DropletWalk::DropletWalk(const DropletWorld& world, const DropletRates& rates,
   step_.wall_bottom = walls && region.bottom == 0 ? 0 : -no_wall;
   step_.wall_right = walls && region.right == world.width ? step_.width - inside_by : no_wall;
   step_.wall_top = walls && region.top == world.height ? step_.height - inside_by : no_wall;
-  step_.stride = world.width;
-  step_.first = region.bottom * world.width + region.left;
+  step_.stride = world.stride;
+  step_.first = region.bottom * world.stride + region.left;
   step_.hardness = world.softness != nullptr;
   step_.record = world.passes != nullptr;
   while (active_ < droplet_lanes && next_ < drops_.size())
@@ -44,7 +44,7 @@ void DropletWalk::begin_lane(std::size_t lane, const Drop& drop) {
   };
   lanes.x[lane] = place(drop.cell.x, region_.left, drop.fraction.x, step_.width);
   lanes.y[lane] = place(drop.cell.y, region_.bottom, drop.fraction.y, step_.height);
-  lanes.at[lane] = step_.first + static_cast<std::int32_t>(lanes.y[lane]) * world_.width +
+  lanes.at[lane] = step_.first + static_cast<std::int32_t>(lanes.y[lane]) * world_.stride +
                    static_cast<std::int32_t>(lanes.x[lane]);
   lanes.from[lane] = drop.at;
   lanes.from_x[lane] = drop.from.x;
@@ -68,7 +68,7 @@ void DropletWalk::begin_lane(std::size_t lane, const Drop& drop) {
 
 std::int32_t DropletWalk::height_at(std::size_t lane) const {
   const DropletCell* low = world_.cells + lanes.from[lane];
-  const DropletCell* high = low + world_.width;
+  const DropletCell* high = low + world_.stride;
   const float fx = lanes.from_x[lane];
   const float fy = lanes.from_y[lane];
   const auto a = static_cast<float>(low[1].height - low[0].height);
@@ -116,7 +116,7 @@ void DropletWalk::lay_down(std::size_t lane) {
   rest.high[0] = c01;
   rest.high[2] = c11;
   DropletCell* low = world_.cells + lanes.from[lane];
-  DropletCell* high = low + world_.width;
+  DropletCell* high = low + world_.stride;
   low[0].height += rest.low[0];
   low[1].height += rest.low[2];
   high[0].height += rest.high[0];
@@ -161,19 +161,11 @@ void DropletWalk::move_lane(std::size_t to, std::size_t from) {
 void DropletWalk::gather_softness(int first, int count, DropletCorners& corners) const {
   for (int k = 0; k < count; ++k) {
     const float* low = world_.softness + lanes.from[index(first + k)];
-    const float* high = low + world_.width;
+    const float* high = low + world_.stride;
     corners.soft00[index(k)] = low[0];
     corners.soft10[index(k)] = low[1];
     corners.soft01[index(k)] = high[0];
     corners.soft11[index(k)] = high[1];
-  }
-}
-
-void DropletWalk::record(int count, const DropletChanges& changes) {
-  for (std::size_t k = 0; k < index(count); ++k) {
-    DropletPasses& here = world_.passes[changes.nearest[k]];
-    ++here.count;
-    here.speed += static_cast<std::uint32_t>(changes.speed[k]);
   }
 }
 
@@ -197,7 +189,7 @@ void DropletWalk::carry_colors(int first, int count, const DropletChanges& chang
   for (int k = 0; k < count; ++k) {
     const std::size_t lane = index(first + k);
     const std::size_t low = index(changes.at[index(k)]);
-    const std::size_t high = low + index(world_.width);
+    const std::size_t high = low + index(world_.stride);
     const std::size_t slot = index(4 * k);
     const Vec3 carried = lanes.color[lane];
     float taken = 0;

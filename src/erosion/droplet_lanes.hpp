@@ -63,8 +63,6 @@ class DropletWalk {
   void end_lanes(int first, std::uint32_t ended);
 
   void gather_softness(int first, int count, DropletCorners& corners) const;
-  /// Counts the drops of a group at the samples nearest to where they are.
-  void record(int count, const DropletChanges& changes);
   /// Moves the colours of what a group's drops took up or laid down. `changes` by lanes.
   void carry_colors(int first, int count, const DropletChanges& changes);
 

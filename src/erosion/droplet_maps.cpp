@@ -20,8 +20,7 @@ Grid<float> from_samples(int width, int height, const Value& value) {
       0, height,
       [&](int j) {
         const auto row = out.row(j);
-        const std::size_t first = static_cast<std::size_t>(j) * row.size();
-        for (std::size_t i = 0; i < row.size(); ++i) row[i] = value(first + i);
+        for (std::size_t i = 0; i < row.size(); ++i) row[i] = value(i, static_cast<std::size_t>(j));
       },
       rows_of_task);
   return out;
@@ -42,29 +41,36 @@ float without_speck(const Grid<float>& map, int i, int j) {
   return sum / static_cast<float>(count);
 }
 
+/// The one of a sample among those in padded rows.
+const DropletPasses& passes_at(const DropletRecord& record, int width, std::size_t i,
+                               std::size_t j) {
+  return record.passes[j * static_cast<std::size_t>(droplet_stride(width)) + i];
+}
+
 }  // namespace
 
 Grid<float> discharge_map(const DropletRecord& record, int width, int height) {
   const double area = record.rain > 0 ? 1 / record.rain : 0;
-  return from_samples(width, height, [&](std::size_t k) {
-    return static_cast<float>(area * record.passes[k].count);
+  return from_samples(width, height, [&](std::size_t i, std::size_t j) {
+    return static_cast<float>(area * passes_at(record, width, i, j).count);
   });
 }
 
 Grid<float> velocity_map(const DropletRecord& record, int width, int height) {
-  return from_samples(width, height, [&](std::size_t k) {
-    if (record.passes[k].count == 0) return 0.0F;
-    return droplet_speed_unit * static_cast<float>(record.passes[k].speed) /
-           static_cast<float>(record.passes[k].count);
+  return from_samples(width, height, [&](std::size_t i, std::size_t j) {
+    const DropletPasses& here = passes_at(record, width, i, j);
+    if (here.count == 0) return 0.0F;
+    return droplet_speed_unit * static_cast<float>(here.speed) / static_cast<float>(here.count);
   });
 }
 
 Grid<float> flow_map(const Grid<float>& discharge, double cell, float contrast) {
   const float f = 0.2F * std::exp(-6.61F * contrast);
   const float keep = std::log1p(-f) / (metres_of_pass * static_cast<float>(cell));
-  const Grid<float> flow = from_samples(discharge.width(), discharge.height(), [&](std::size_t k) {
-    return -std::expm1(keep * discharge.values()[k]);
-  });
+  const Grid<float> flow =
+      from_samples(discharge.width(), discharge.height(), [&](std::size_t i, std::size_t j) {
+        return -std::expm1(keep * discharge(static_cast<int>(i), static_cast<int>(j)));
+      });
   Grid<float> closed(flow.width(), flow.height());
   parallel_for(
       0, flow.height(),

@@ -11,8 +11,8 @@ namespace wold {
 
 /// What drops left at each sample while they were recorded.
 struct DropletRecord {
-  std::vector<DropletPasses> passes;
-  double rain = 0;  ///< drops per m² that were recorded
+  std::vector<DropletPasses> passes;  ///< in rows `droplet_stride` apart
+  double rain = 0;                    ///< drops per m² that were recorded
 };
 
 /// Area whose rain comes through, m².

@@ -1,6 +1,7 @@
 #include "erosion/droplet_rain.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "base/hash.hpp"
@@ -94,13 +95,22 @@ void DropletTiles::rain_on(Tile& tile, const DropletShower& shower, float life) 
 void DropletTiles::move(const DropletWorld& world, const DropletRates& rates, int first,
                         Progress& progress) {
   for (int turn = 0; turn < 4; ++turn) {
-    const std::vector<int>& color = by_color_[(first + turn) % 4];
-    parallel_for(0, static_cast<int>(color.size()), [&](int k) {
-      Tile& tile = tiles_[static_cast<std::size_t>(color[static_cast<std::size_t>(k)])];
-      if (tile.waiting.empty()) return;
-      walk_droplets(world, rates, tile.region, tile.waiting, tile.tally, progress);
-      tile.waiting.clear();
-      progress.advance(static_cast<double>(tile.tally.finished));
+    std::vector<Tile*> color;
+    for (const int t : by_color_[(first + turn) % 4])
+      if (Tile& tile = tiles_[static_cast<std::size_t>(t)]; !tile.waiting.empty())
+        color.push_back(&tile);
+    // The fullest first, each by whoever is free: then threads end together.
+    std::stable_sort(color.begin(), color.end(), [](const Tile* a, const Tile* b) {
+      return a->waiting.size() > b->waiting.size();
+    });
+    std::atomic<std::size_t> next = 0;
+    parallel_for(0, static_cast<int>(color.size()), [&](int) {
+      for (std::size_t k = next++; k < color.size(); k = next++) {
+        Tile& tile = *color[k];
+        walk_droplets(world, rates, tile.region, tile.waiting, tile.tally, progress);
+        tile.waiting.clear();
+        progress.advance(static_cast<double>(tile.tally.finished));
+      }
     });
     hand_over();
   }

@@ -16,12 +16,31 @@ constexpr int showers_of_rain = 64;
 constexpr int recorded_showers = 16;    // the last: on ground that is nearly done
 constexpr double drops_of_round = 128;  // in a tile at least, before changes are spread
 
+/// How many values an array in rows of `droplet_stride` has.
+std::size_t padded_size(const Heightfield& input) {
+  return static_cast<std::size_t>(droplet_stride(input.height.width())) *
+         static_cast<std::size_t>(input.height.height());
+}
+
+/// Calls `use(k, (i, j))` for each sample, with its place in an array in rows of `droplet_stride`.
+template <class Use>
+void for_samples(int width, int height, const Use& use) {
+  for (int j = 0; j < height; ++j)
+    for (int i = 0; i < width; ++i)
+      use(static_cast<std::size_t>(j) * static_cast<std::size_t>(droplet_stride(width)) +
+              static_cast<std::size_t>(i),
+          IVec2(i, j));
+}
+
 /// Share of the erosion that each sample lets happen.
-Grid<float> softness_of(const Heightfield& input, const Droplets& p,
-                        const TerrainContext& context) {
-  Grid<float> softness = factor_map(input, p.hardness, 0, context);
-  if (!p.hardness_invert)
-    for (float& s : softness.values()) s = 1 - s;
+std::vector<float> softness_of(const Heightfield& input, const Droplets& p,
+                               const TerrainContext& context) {
+  const Grid<float> hardness = factor_map(input, p.hardness, 0, context);
+  std::vector<float> softness(padded_size(input));
+  for_samples(hardness.width(), hardness.height(), [&](std::size_t k, IVec2 at) {
+    const float h = hardness(at.x, at.y);
+    softness[k] = p.hardness_invert ? h : 1 - h;
+  });
   return softness;
 }
 
@@ -29,12 +48,13 @@ DropletColors colors_of(const Heightfield& input, const Droplets& p, double quan
                         const TerrainContext& context) {
   const std::filesystem::path path = context.folder / p.color.path;
   DropletColors colors;
-  colors.beneath.resize(input.height.size());
+  colors.beneath.resize(padded_size(input));
   const char* const channels[] = {"R", "G", "B"};
   for (int c = 0; c < 3; ++c) {
     const Grid<float> values =
         picture_over(path, channels[c], context.domain, input, context.progress);
-    for (std::size_t k = 0; k < values.size(); ++k) colors.beneath[k][c] = values.values()[k];
+    for_samples(values.width(), values.height(),
+                [&](std::size_t k, IVec2 at) { colors.beneath[k][c] = values(at.x, at.y); });
   }
   colors.skin = colors.beneath;
   colors.depth = static_cast<float>(static_cast<double>(p.color_depth) / quantum);
@@ -45,7 +65,8 @@ void add_color_maps(const DropletColors& colors, int width, int height, TerrainR
   const char* const names[] = {"color.red", "color.green", "color.blue"};
   for (int c = 0; c < 3; ++c) {
     Grid<float> map(width, height);
-    for (std::size_t k = 0; k < map.size(); ++k) map.values()[k] = colors.skin[k][c];
+    for_samples(width, height,
+                [&](std::size_t k, IVec2 at) { map(at.x, at.y) = colors.skin[k][c]; });
     result.maps.emplace(names[c], std::move(map));
   }
 }
@@ -62,11 +83,12 @@ DropletRun::DropletRun(const Heightfield& input, const Droplets& parameters,
       radius_cells_(static_cast<double>(parameters.radius) / input.cell) {
   world_.width = input.height.width();
   world_.height = input.height.height();
+  world_.stride = droplet_stride(world_.width);
   world_.cells = ground_.cells();
   world_.closed_border = parameters.closed_border;
   if (!parameters.hardness.empty()) {
     softness_ = softness_of(input, parameters, context);
-    world_.softness = softness_.values().data();
+    world_.softness = softness_.data();
   }
   if (!parameters.rain_map.empty())
     rain_share_ = factor_map(input, parameters.rain_map, 1, context);
@@ -113,14 +135,14 @@ void DropletRun::round(DropletTiles& tiles, int k) {
 
 void DropletRun::start_record() {
   record_.rain = static_cast<double>(parameters_.rain) * recorded_showers / showers_of_rain;
-  record_.passes.resize(input_.height.size());
+  record_.passes.resize(padded_size(input_));
   world_.passes = record_.passes.data();
 }
 
 TerrainResult DropletRun::result() {
   const int width = world_.width;
   const int height = world_.height;
-  record_.passes.resize(input_.height.size());
+  record_.passes.resize(padded_size(input_));
   TerrainResult result{{ground_.eroded(input_), input_.origin, input_.cell}, {}, {}};
   Grid<float> wear = ground_.wear(radius_cells_, world_.softness, context_.progress);
   Grid<float> sediment(width, height);

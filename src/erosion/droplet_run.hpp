@@ -38,7 +38,7 @@ class DropletRun {
   DropletWorld world_;
   DropletColors colors_;
   DropletRecord record_;
-  Grid<float> softness_;
+  std::vector<float> softness_;
   Grid<float> rain_share_;
   double removed_ = 0;  ///< m · cells
   std::int64_t steps_ = 0;

@@ -327,6 +327,7 @@ using Block = hn::FixedTag<std::int32_t, 4>;
 template <class Work>
 HWY_INLINE void for_drops(int count, const Work& work) {
   if (count == droplet_group) {
+    HWY_UNROLL(16)
     for (std::size_t k = 0; k < droplet_group; ++k) work(k, slot_of(k));
   } else {
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) work(k, slot_of(k));
@@ -337,7 +338,7 @@ HWY_INLINE void for_drops(int count, const Work& work) {
 void gather(const DropletWalk& walk, int first, DropletCorners& corners) {
   const Block block;
   const DropletCell* cells = walk.world().cells;
-  const std::ptrdiff_t stride = walk.world().width;
+  const std::ptrdiff_t stride = walk.world().stride;
   const std::int32_t* at = &walk.lanes.at[static_cast<std::size_t>(first)];
   const int count = std::min(droplet_group, walk.active() - first);
   for_drops(count, [&](std::size_t k, std::size_t slot) HWY_ATTR {
@@ -351,7 +352,7 @@ void gather(const DropletWalk& walk, int first, DropletCorners& corners) {
 
 void apply_changes(const DropletWorld& world, int count, const DropletChanges& changes) {
   const Block block;
-  const std::ptrdiff_t stride = world.width;
+  const std::ptrdiff_t stride = world.stride;
   for_drops(count, [&](std::size_t k, std::size_t slot) HWY_ATTR {
     auto* low = reinterpret_cast<std::int32_t*>(world.cells + changes.at[k]);
     auto* high = reinterpret_cast<std::int32_t*>(world.cells + changes.at[k] + stride);
@@ -371,6 +372,14 @@ DropletChanges sorted(const DropletChanges& changes) {
   return out;
 }
 
+void record(const DropletWorld& world, int count, const DropletChanges& changes) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+    DropletPasses& here = world.passes[changes.nearest[k]];
+    ++here.count;
+    here.speed += static_cast<std::uint32_t>(changes.speed[k]);
+  }
+}
+
 void walk_lanes(DropletWalk& walk, DropletTally& tally, const Progress& progress) {
   std::array<DropletCorners, 2> corners{};  // the next group is read while one is worked on
   DropletChanges changes;
@@ -386,7 +395,7 @@ void walk_lanes(DropletWalk& walk, DropletTally& tally, const Progress& progress
       if (first + droplet_group < walk.active()) gather(walk, first + droplet_group, corners[turn]);
       std::uint32_t ended = step_group(walk.lanes, first, here, changes, walk.step());
       apply_changes(walk.world(), count, changes);
-      if (walk.step().record) walk.record(count, changes);
+      if (walk.step().record) record(walk.world(), count, changes);
       if (walk.world().colors != nullptr) walk.carry_colors(first, count, sorted(changes));
       ended &= (std::uint32_t{1} << static_cast<unsigned>(count)) - 1U;
       if (ended != 0) walk.end_lanes(first, ended);

@@ -62,16 +62,24 @@ struct DropletPasses {
   std::uint32_t speed = 0;  ///< their sum, droplet_speed_unit m/s
 };
 
-/// What the walks of all tiles share. Pointers to arrays of width · height; null for none.
+/// What the walks of all tiles share. Pointers to arrays of stride · height; null for none.
 struct DropletWorld {
   int width = 0;
   int height = 0;
+  int stride = 0;  ///< from row to row, `droplet_stride(width)`
   DropletCell* cells = nullptr;
   const float* softness = nullptr;  ///< 0 to 1, share of the erosion
   DropletPasses* passes = nullptr;  ///< while recorded
   DropletColors* colors = nullptr;
   bool closed_border = false;
 };
+
+/// Rows an odd number of cache lines apart: with rows of a power of two, samples above each other
+/// would compete for the same few lines of each cache.
+constexpr int droplet_stride(int width) {
+  constexpr int line = 64 / static_cast<int>(sizeof(DropletCell));
+  return line * ((width + line - 1) / line | 1);
+}
 
 constexpr float droplet_speed_unit = 1.0F / 64;
 

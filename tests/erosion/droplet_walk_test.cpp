@@ -16,6 +16,7 @@ namespace {
 
 constexpr int width = 64;
 constexpr int height = 16;
+constexpr int stride = droplet_stride(width);
 constexpr double cell = 2;
 constexpr double slope = 0.25;  // downhill to the east
 constexpr float start_x = 3.5F;
@@ -31,11 +32,12 @@ Heightfield plane() {
 /// What a single drop leaves behind.
 struct Walk {
   explicit Walk(const Droplets& parameters, DropletColors* colors = nullptr)
-      : field(plane()), ground(field), passes(field.height.size()) {
+      : field(plane()), ground(field), passes(static_cast<std::size_t>(stride * height)) {
     const DropletRates rates = droplet_rates(parameters, cell, ground.quantum());
     DropletWorld world;
     world.width = width;
     world.height = height;
+    world.stride = stride;
     world.cells = ground.cells();
     world.passes = passes.data();
     world.colors = colors;
@@ -48,12 +50,13 @@ struct Walk {
     walk_droplets(world, rates, {0, 0, width, height}, {drop}, tally, progress);
   }
 
-  std::size_t sample(int i, int j) const { return static_cast<std::size_t>(j * width + i); }
+  std::size_t sample(int i, int j) const { return static_cast<std::size_t>(j * stride + i); }
   /// m³ that the ground gained.
   double gained() {
     double sum = 0;
-    for (std::size_t k = 0; k < field.height.size(); ++k)
-      sum += ground.cells()[k].height - ground.quantised(field.height.values()[k]);
+    for (int j = 0; j < height; ++j)
+      for (int i = 0; i < width; ++i)
+        sum += ground.cells()[sample(i, j)].height - ground.quantised(field.height(i, j));
     return sum * ground.quantum() * cell * cell;
   }
   double removed() const {
@@ -162,15 +165,15 @@ TEST(DropletWalk, ColorsAreTakenAsTheGroundIs) {
   Droplets p = frictionless();
   p.deposition = 0;
   DropletColors colors;  // red in the west, blue in the east
-  for (int k = 0; k < width * height; ++k)
-    colors.skin.push_back(k % width < width / 2 ? Vec3(1, 0, 0) : Vec3(0, 0, 1));
+  for (int k = 0; k < stride * height; ++k)
+    colors.skin.push_back(k % stride < width / 2 ? Vec3(1, 0, 0) : Vec3(0, 0, 1));
   colors.beneath = colors.skin;
   colors.depth = 10;  // quanta: more is taken at once
   Walk walk(p, &colors);
   double red = 0;
   double blue = 0;
-  for (int k = 0; k < width * height; ++k)
-    (k % width < width / 2 ? red : blue) += walk.ground.cells()[k].wear;
+  for (int k = 0; k < stride * height; ++k)
+    (k % stride < width / 2 ? red : blue) += walk.ground.cells()[k].wear;
   ASSERT_GT(red, 1000);
   EXPECT_NEAR(static_cast<double>(walk.tally.color_removed.r), red, 1e-4 * (red + blue));
   EXPECT_NEAR(static_cast<double>(walk.tally.color_removed.b), blue, 1e-4 * (red + blue));
