@@ -13,8 +13,8 @@ namespace wold {
 
 namespace {
 
-/// Of the room where what runs down may run on, it takes one part in so many.
-constexpr int parts_of_room = 4;
+/// As thick as films are: this part of the largest drop between neighbours.
+constexpr int films_of_a_drop = 64;
 constexpr int samples_between_checks = 4096;
 
 struct Neighbour {
@@ -164,17 +164,24 @@ class Settling {
     }
   }
 
+  /// Fills what is hollow, and a film more.
   void lay_down(int i, int j) {
     const std::int32_t here = ground_.surface(i, j);
-    const std::int32_t room = std::max(0, highest(i, j, stops_at(i, j)) - here);
-    const bool runs_on = highest(i, j, {0, 0}) < here;
+    const Drops stops = stops_at(i, j);
+    const std::int32_t room = std::max(0, highest(i, j, stops) - here);
+    if (room == 0) return;
+    std::int64_t sum = 0;
+    std::int64_t count = 0;
+    around(i, j, [&](int m, int n, bool) {
+      sum += ground_.surface(m, n);
+      ++count;
+    });
+    const std::int64_t hollow = std::max<std::int64_t>(0, sum / count - here);
+    const std::int64_t film = stops.straight / films_of_a_drop + 1;
     const auto laid =
-        static_cast<std::int32_t>(std::min<std::int64_t>(load_(i, j), partial(room, runs_on)));
+        static_cast<std::int32_t>(std::min({load_(i, j), std::int64_t{room}, hollow + film}));
     ground_.surface(i, j) += laid;
     load_(i, j) -= laid;
-  }
-  static std::int32_t partial(std::int32_t room, bool runs_on) {
-    return runs_on ? (room + parts_of_room - 1) / parts_of_room : room;
   }
 
   /// Hands the load to all lower neighbours.

@@ -7,10 +7,9 @@
 //    above any of its eight neighbours than the angle of repose plus the tolerance allows:
 //    h'(x) = max(bed(x), min(h(x), min over neighbours y of h'(y) + tan(R + tolerance) |x - y|)).
 // 2. What was cut runs down, from the highest sample to the lowest, shared among all lower
-//    neighbours in proportion to the slopes towards them. On its way it lies down where there is
-//    room below the angle of repose less two tolerances: a part of the room where it can run on,
-//    all of it in hollows. The rest runs on to samples that are lower by more than that room, so
-//    it ends.
+//    neighbours in proportion to the slopes towards them. On its way it fills what lies lower than
+//    the mean of its neighbours, and a film more, as far as there is room below the angle of repose
+//    less two tolerances. The rest runs on to samples that are lower by then, so it ends.
 //
 // Rising ground only becomes steeper towards what lies lower, which the room allows for: so what
 // holds after the first step holds after the second. Whole numbers: nothing is lost.

@@ -43,7 +43,7 @@ TerrainResult run(const TerrainOperator& op, const Heightfield& input) {
 class EveryErosion : public testing::TestWithParam<TerrainOperator> {};
 
 TEST_P(EveryErosion, LosesNothing) {
-  const Heightfield input = mountains(130, 97);
+  const Heightfield input = mountains(60, 47);
   const TerrainResult result = run(GetParam(), input);
   ASSERT_TRUE(result.field.height.same_shape(input.height));
   for (const Balance& b : result.balances) {
@@ -55,9 +55,9 @@ TEST_P(EveryErosion, LosesNothing) {
 }
 
 TEST_P(EveryErosion, SameBitsOnAnyNumberOfThreads) {
-  const Heightfield input = mountains(150, 131);
+  const Heightfield input = mountains(131, 67);
   TerrainResult first;
-  for (const int threads : {1, 2, 4, 2}) {
+  for (const int threads : {1, 4, 2}) {
     const ThreadLimit limit(threads);
     TerrainResult result = run(GetParam(), input);
     if (first.field.height.empty()) {
@@ -70,7 +70,7 @@ TEST_P(EveryErosion, SameBitsOnAnyNumberOfThreads) {
 }
 
 TEST_P(EveryErosion, MakesTheMapsThatItNames) {
-  const Heightfield input = mountains(64, 48);
+  const Heightfield input = mountains(33, 24);
   const TerrainResult result = run(GetParam(), input);
   for (const auto& [name, map] : result.maps) {
     const std::vector<std::string>& named = GetParam().maps;
@@ -156,7 +156,7 @@ TEST_P(EveryErosion, RefusesMapsThatAreNotThere) {
 }
 
 TEST_P(EveryErosion, StopsAndLeavesItsInput) {
-  const Heightfield input = mountains(700, 500);
+  const Heightfield input = mountains(300, 200);
   const Heightfield copy = input;
   std::atomic<bool> stop = false;
   Progress progress({}, &stop);
@@ -176,7 +176,7 @@ TEST_P(EveryErosion, StopsAndLeavesItsInput) {
 TEST_P(EveryErosion, StopsBeforeItBegins) {
   Progress progress;
   progress.cancel();
-  EXPECT_THROW(run(GetParam(), GetParam().defaults, mountains(300, 300), progress), Error);
+  EXPECT_THROW(run(GetParam(), GetParam().defaults, mountains(40, 30), progress), Error);
 }
 
 INSTANTIATE_TEST_SUITE_P(Operators, EveryErosion, testing::ValuesIn(erosion_operators()),
