@@ -166,7 +166,7 @@ void SlowWater::weather_and_exchange(float turn) {
   parallel_for(
       0, height_,
       [&](int j) {
-        context_.progress.check();
+        context_.progress.advance(0);
         weather_row(j, turn, sums[static_cast<std::size_t>(j)]);
       },
       rows_per_task);
@@ -185,7 +185,7 @@ void SlowWater::move() {
   parallel_for(
       0, height_,
       [&](int j) {
-        context_.progress.check();
+        context_.progress.advance(0);
         offer(row(j - 1), row(j), row(j + 1), give_.row(j), load_.row(j), width_);
         if (periodic_) {
           give_.fill_sides(j, true);
@@ -202,7 +202,7 @@ void SlowWater::move() {
   parallel_for(
       0, height_,
       [&](int j) {
-        context_.progress.check();
+        context_.progress.advance(0);
         flow(row(j - 1), row(j), row(j + 1), next_depth_.row(j), next_dissolved_.row(j), width_);
       },
       rows_per_task);

@@ -127,9 +127,12 @@ TerrainResult drainage(const Heightfield& input, const Drainage& p, const Terrai
       map_of([&](int i, int j) { return area(i, j) / (area(i, j) + p.river_area); });
   result.maps["wetness"] = wetness_of(ground, area, progress);
   const Grid<std::int32_t> basins = basin_labels(direction, order);
+  progress.advance(0);
   result.maps["basins"] = map_of([&](int i, int j) { return static_cast<float>(basins(i, j)); });
-  const Grid<std::uint8_t> rivers = strahler_order(
-      direction, order, d8_area(direction, order, input.cell), static_cast<double>(p.river_area));
+  const Grid<double> d8 = d8_area(direction, order, input.cell);
+  progress.advance(0);
+  const Grid<std::uint8_t> rivers =
+      strahler_order(direction, order, d8, static_cast<double>(p.river_area));
   result.maps["order"] = map_of([&](int i, int j) { return static_cast<float>(rivers(i, j)); });
   progress.advance();
   result.maps["lakes"] = lake_depth(notched, progress);

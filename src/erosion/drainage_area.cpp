@@ -119,7 +119,7 @@ Grid<double> accumulate_shares(const Grid<float>& height, double cell, const Sha
       for (int d = 0; d < 8; ++d)
         if (shares[at(d)] > 0) ++waiting(i + flow_dx[at(d)], j + flow_dy[at(d)]);
     }
-    progress.check();
+    progress.advance(0);
   }
   std::vector<int> ready;
   for (int k = 0; k < w * h; ++k)
@@ -135,10 +135,7 @@ Grid<double> accumulate_shares(const Grid<float>& height, double cell, const Sha
       area.values()[at(n)] += shares[at(d)] * area.values()[at(k)];
       if (--waiting.values()[at(n)] == 0) ready.push_back(n);
     }
-    if (count % 4096 == 0) {
-      progress.check();
-      progress.advance(0);
-    }
+    if (count % 4096 == 0) progress.advance(0);
   }
   return area;
 }
@@ -149,7 +146,7 @@ Grid<float> d_infinity_directions(const Grid<float>& height, Progress& progress)
   Grid<float> out(height.width(), height.height());
   parallel_for(0, height.height(), [&](int j) {
     for (int i = 0; i < height.width(); ++i) out(i, j) = d_infinity_at(height, i, j);
-    progress.check();
+    progress.advance(0);
   });
   return out;
 }

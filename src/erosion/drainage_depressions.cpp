@@ -66,10 +66,7 @@ class Flood {
     seed_border();
     for (int count = 0; !shores_.empty() || head_ < raised_.size(); ++count) {
       spread(next());
-      if (count % 4096 == 0) {
-        progress.check();
-        progress.advance(0);
-      }
+      if (count % 4096 == 0) progress.advance(0);
     }
     return std::move(level_);
   }
@@ -157,7 +154,7 @@ class Breacher {
         if (is_pit(ground_, i, j)) pits.emplace_back(ground_(i, j), j * width_ + i);
     std::sort(pits.begin(), pits.end(), [](const Shore& a, const Shore& b) { return b > a; });
     for (const Shore& pit : pits) {
-      progress.check();
+      progress.advance(0);
       const int k = pit.place();
       if (handled_.values()[at(k)] == 0 && is_pit(ground_, k % width_, k / width_))
         breach(k, progress);
@@ -186,7 +183,7 @@ class Breacher {
       }
       if (ground(k) == ground(pit)) handled_.values()[at(k)] = 1;  // one notch drains a flat
       extend(k, pit, front);
-      if (count % 1024 == 0) progress.check();
+      if (count % 1024 == 0) progress.advance(0);
     }
   }
 

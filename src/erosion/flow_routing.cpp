@@ -130,7 +130,7 @@ Grid<std::uint8_t> d8_directions(const Grid<float>& height, Progress& progress) 
           row.front() = direction_at(height, 0, j);
           row.back() = direction_at(height, w - 1, j);
         }
-        progress.check();
+        progress.advance(0);
       },
       8);
   return out;
@@ -153,7 +153,7 @@ void donor_masks(const Grid<std::uint8_t>& direction, Grid<std::uint8_t>& mask,
           mark_donors(direction.row(y).data() + first + dx, out.data() + first, d,
                       std::min(w, w - dx) - first);
         }
-        progress.check();
+        progress.advance(0);
       },
       8);
 }
@@ -180,17 +180,19 @@ void FlowOrder::build_with(const Grid<std::uint8_t>& direction, std::span<Amount
     for (int k = first; k < last; ++k) {
       if (donors_.values()[static_cast<std::size_t>(k)] == 0)
         walker.walk(k, first, last, bands_[band], outside[band]);
-      if (k % w == 0) progress.check();
+      if (k % w == 0) progress.advance(0);
     }
   });
   trunk_.clear();
   std::vector<Crossing<Amount>> nowhere;
-  for (const std::vector<Crossing<Amount>>& crossings : outside)
+  for (const std::vector<Crossing<Amount>>& crossings : outside) {
     for (const Crossing<Amount>& c : crossings) {
       amounts[static_cast<std::size_t>(c.receiver)] += c.amount;
       if (--waiting_.values()[static_cast<std::size_t>(c.receiver)] == 0)
         walker.walk(c.receiver, 0, w * h, trunk_, nowhere);
     }
+    progress.advance(0);
+  }
 }
 
 void FlowOrder::build(const Grid<std::uint8_t>& direction, std::span<std::int32_t> amounts,

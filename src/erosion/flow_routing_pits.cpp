@@ -77,7 +77,7 @@ std::vector<int> pits_of(const Grid<std::uint8_t>& direction, Progress& progress
            p = std::find(p + 1, row.end(), flow_stops))
         found[at(c)].push_back(j * w + static_cast<int>(p - row.begin()));
     }
-    progress.check();
+    progress.advance(0);
   });
   return concatenated(found);
 }
@@ -97,7 +97,7 @@ void PitRouter::label_basins(const Grid<std::uint8_t>& direction, const std::vec
     samples_[at(c)].clear();
     for (int p = c * pits_at_once; p < std::min(count, (c + 1) * pits_at_once); ++p) {
       label_basin(pits[at(p)], p + 1, samples_[at(c)]);
-      progress.check();
+      progress.advance(0);
     }
   });
 }
@@ -133,7 +133,7 @@ void PitRouter::find_passes(const Grid<float>& height, const Sides& open, Progre
           found[at(c)].push_back({std::max(height_here[i], height_there[i]), j * w + i, d});
         });
       }
-    progress.check();
+    progress.advance(0);
   });
   passes_ = concatenated(found);
   for (int j = 0; j < h; ++j)

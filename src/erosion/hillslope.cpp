@@ -43,7 +43,7 @@ class CriticalCreep {
     return parallel_reduce(
         0, height_.height(), 1.0,
         [&](int j) {
-          progress.check();
+          progress.advance(0);
           double most = 1;
           for (int i = 0; i < height_.width(); ++i) {
             east_(i, j) = flux(i, j, 1, 0, most);
@@ -58,7 +58,7 @@ class CriticalCreep {
   void move(double spread, Progress& progress) {
     const double per_cell = spread / cell_;
     parallel_for(0, height_.height(), [&](int j) {
-      progress.check();
+      progress.advance(0);
       for (int i = 0; i < height_.width(); ++i) {
         if (open_ && is_border(i, j)) continue;
         const double from_west = i > 0 ? east_(i - 1, j) : 0;

@@ -77,7 +77,7 @@ void diffuse_rows(Grid<Real>& height, const LineMatrix<Real>& matrix, Progress& 
       for (int i = 0; i < w; ++i)
         row[i] = turned[static_cast<std::size_t>(i) * lanes + static_cast<std::size_t>(r)];
     }
-    progress.check();
+    progress.advance(0);
   });
 }
 
@@ -88,7 +88,7 @@ void diffuse_columns(Grid<Real>& height, const LineMatrix<Real>& matrix, Progres
   parallel_for(0, (w + columns - 1) / columns, [&](int b) {
     const int first = b * columns;
     matrix.solve(&height(first, 0), w, std::min(columns, w - first));
-    progress.check();
+    progress.advance(0);
   });
 }
 

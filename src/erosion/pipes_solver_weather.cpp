@@ -31,7 +31,7 @@ void PipeSolver::let_rain(double seconds, Progress& progress) {
   parallel_for(
       0, height_,
       [&](int j) {
-        progress.check();
+        progress.advance(0);
         Grains* depth = now_.depth.row(j);
         const float* inflow = start_.inflow.row(j).data();
         float* wet = wet_time_.row(j).data();
@@ -96,7 +96,7 @@ void PipeSolver::let_slide(double seconds, Progress& progress) {
   parallel_for(
       0, height_,
       [&](int j) {
-        progress.check();
+        progress.advance(0);
         prepare_slide(j, stir);
       },
       16);
@@ -107,7 +107,7 @@ void PipeSolver::let_slide(double seconds, Progress& progress) {
   parallel_for(
       0, height_,
       [&](int j) {
-        progress.check();
+        progress.advance(0);
         moved[static_cast<std::size_t>(j)] =
             slide(slide_state(j - 1), slide_state(j), slide_state(j + 1), next_.change.row(j),
                   width_, {static_cast<float>(cell), !start_.material});

@@ -195,6 +195,7 @@ void StreamPowerSolver::step(Grid<float>& height, double years) {
   step_key_ = static_cast<std::uint32_t>(random_bits(seed_, steps_++));
   find_directions(height);
   pits_ = router_.route(height, direction_, law_.open, progress_);
+  progress_.advance(0);
   const double m = law_.area_exponent;
   const double cell_area = cell_ * cell_;
   if (ground_.rain.empty()) {
@@ -217,9 +218,11 @@ void StreamPowerSolver::step(Grid<float>& height, double years) {
                       static_cast<float>(m));
     });
   }
+  progress_.advance(0);
   if (law_.deposition > 0) {
     if (sediment_.empty()) sediment_ = Grid<float>(height.width(), height.height(), 0);
     deposit(height, area());
+    progress_.advance(0);
   }
   diffuse(height, law_.diffusivity * years / cell_area, {}, progress_);
 }

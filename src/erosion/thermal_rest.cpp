@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <queue>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "base/parallel.hpp"
 #include "base/vec.hpp"
@@ -38,7 +41,7 @@ struct Drops {
 
 class Settling {
  public:
-  Settling(SlideGround& ground, const SlideRules& rules, const Progress& progress)
+  Settling(SlideGround& ground, const SlideRules& rules, Progress& progress)
       : ground_(ground),
         rules_(rules),
         lies_(drops(rules.repose + rules.tolerance)),
@@ -103,13 +106,13 @@ class Settling {
   }
 
   void check_now_and_then() {
-    if (++samples_ % samples_between_checks == 0) progress_.check();
+    if (++samples_ % samples_between_checks == 0) progress_.advance(0);
   }
 
   std::queue<IVec2> too_steep() const {
     std::vector<std::vector<int>> found(static_cast<std::size_t>(ground_.surface.height()));
     parallel_for(0, ground_.surface.height(), [&](int j) {
-      progress_.check();
+      progress_.advance(0);
       for (int i = 0; i < ground_.surface.width(); ++i)
         if (cut_height(i, j) < ground_.surface(i, j))
           found[static_cast<std::size_t>(j)].push_back(i);
@@ -218,7 +221,7 @@ class Settling {
   const SlideRules& rules_;
   Drops lies_;   ///< what loose material bears
   Drops stops_;  ///< beneath which it lies down
-  const Progress& progress_;
+  Progress& progress_;
   Grid<std::int64_t> load_;  ///< what runs down, units
   Grid<char> waits_;         ///< to be cut
   int samples_ = 0;
@@ -226,7 +229,7 @@ class Settling {
 
 }  // namespace
 
-void bring_to_rest(SlideGround& ground, const SlideRules& rules, const Progress& progress) {
+void bring_to_rest(SlideGround& ground, const SlideRules& rules, Progress& progress) {
   Settling(ground, rules, progress).run();
 }
 

@@ -20,6 +20,6 @@ namespace wold {
 
 /// Afterwards no sample that holds loose material is steeper towards any of its eight neighbours
 /// than the angle of repose plus the tolerance, and no rock has broken. Throws Error(cancelled).
-void bring_to_rest(SlideGround& ground, const SlideRules& rules, const Progress& progress);
+void bring_to_rest(SlideGround& ground, const SlideRules& rules, Progress& progress);
 
 }  // namespace wold

@@ -204,7 +204,7 @@ class Rung {
 
   /// From the first surface to the second; where something moved.
   std::vector<char> pass_over(const SlidePass& pass, const std::vector<IVec2>& active,
-                              const Progress& progress) {
+                              Progress& progress) {
     std::vector<char> moved(active.size(), 0);
     parallel_for(0, static_cast<int>(active.size()), [&](int t) {
       thread_local SlideScratch scratch;
@@ -213,13 +213,13 @@ class Rung {
       moved[k] = ground_.bed.empty() ? slide_tile(pass, tile, surface_[0], surface_[1], scratch)
                                      : slide_layers_tile(pass, tile, surface_[0], bed_[0],
                                                          surface_[1], bed_[1], scratch);
-      progress.check();
+      progress.advance(0);
     });
     return moved;
   }
 
   /// Returns over how many cells it went.
-  double sweep(const std::vector<IVec2>& active, int pass, const Progress& progress) {
+  double sweep(const std::vector<IVec2>& active, int pass, Progress& progress) {
     const std::vector<char> moved = pass_over(pass_, active, progress);
     double cells = 0;
     for (std::size_t k = 0; k < active.size(); ++k) {
