@@ -50,7 +50,9 @@ struct Walk {
     walk_droplets(world, rates, {0, 0, width, height}, {drop}, tally, progress);
   }
 
-  std::size_t sample(int i, int j) const { return static_cast<std::size_t>(j * stride + i); }
+  std::size_t sample(int i, int j) const {
+    return static_cast<std::size_t>(j) * stride + static_cast<std::size_t>(i);
+  }
   /// m³ that the ground gained.
   double gained() {
     double sum = 0;

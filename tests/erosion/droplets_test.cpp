@@ -15,7 +15,6 @@ namespace {
 
 using testing_terrain::error_text;
 using testing_terrain::field_of;
-using testing_terrain::largest_difference;
 using testing_terrain::run;
 
 /// Hills over 1 km.
