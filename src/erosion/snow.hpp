@@ -25,7 +25,7 @@ struct Snow {
   float wind_from = 270;  ///< degrees clockwise from north
   float drift = 0;        ///< of depth, per unit of slope
   float tolerance = .5F;  ///< degrees
-  int max_passes = 1000;
+  int max_passes = 300;
 };
 
 Description<Snow> describe(const Snow&);

@@ -65,7 +65,7 @@ Description<Thermal> describe(const Thermal&) {
       .choice("neighbours", &Thermal::neighbours, {"four", "diagonals", "alternating"},
               "Between which cells material slides; slopes are measured over all directions.")
       .add("tolerance", &Thermal::tolerance, {.unit = "degrees", .min = 0.01, .max = 10},
-           "How far below their angle slopes may come to rest: less is more exact and slower.")
+           "How far from their angle slopes may come to rest: less is more exact and slower.")
       .add("years", &Thermal::years, {.unit = "years", .min = 0, .max = 1e9},
            "How long material slides; 0: until all rests.")
       .add("rate", &Thermal::rate, {.unit = "m²/year", .min = 1e-6, .max = 1e6},
