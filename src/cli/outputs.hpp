@@ -12,8 +12,8 @@ namespace wold {
 /// Slope and curvature besides what the steps made: what every material in an engine wants.
 std::map<std::string, Grid<float>> all_maps(const TerrainResult& terrain);
 
-/// To be called before long work. The folder may be missing, if the one above it is there; an
-/// empty name is none. Throws Error(io).
+/// To be called before long work. The folder may be missing; an empty name is none. Throws
+/// Error(io).
 void check_map_folder(const std::string& folder);
 
 /// To be called before long work; an empty name is none. Throws Error(usage) or Error(io).

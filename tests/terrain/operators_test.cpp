@@ -197,7 +197,7 @@ TEST(TerrainOperators, CrestsAndHollowsAreMasked) {
 TEST(TerrainOperators, NamesAreUnique) {
   std::map<std::string, int> names;
   for (const TerrainOperator& op : terrain_operators()) EXPECT_EQ(names[op.name()]++, 0);
-  EXPECT_EQ(names.size(), 20U);
+  EXPECT_EQ(names.size(), 21U);
 }
 
 }  // namespace
