@@ -26,12 +26,12 @@ namespace wold {
 
 struct Dissolution {
   float duration = 48;       ///< h
-  float rain = 30;            ///< K_r, mm/h
+  float rain = 30;           ///< K_r, mm/h
   std::string rain_map;      ///< factor of the rain
   std::string water;         ///< map of depths at the beginning, m
   float evaporation = 0.1F;  ///< K_e, 1/h
-  float dry_depth = 1e-5F;  ///< T, m
-  float saturation = 1;   ///< K_s, m of ground per m of water
+  float dry_depth = 1e-5F;   ///< T, m
+  float saturation = 1;      ///< K_s, m of ground per m of water
   float dissolving = 2;      ///< 1/h
   float depositing = 4;      ///< 1/h
   float speed = 0.02F;       ///< m/s
