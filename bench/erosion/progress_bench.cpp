@@ -42,6 +42,7 @@ bool runs_through(const TerrainOperator& op, const Heightfield& field, Progress&
   const std::map<std::string, TerrainResult> none;
   const TerrainContext context{1, {field.origin, field.size()}, {}, none, progress};
   try {
+    const ProgressStage step(progress, "step", 0, "");
     op.run(field, op.defaults, context);
   } catch (const Error&) {
     return false;

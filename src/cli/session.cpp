@@ -20,7 +20,7 @@ namespace wold {
 namespace {
 
 constexpr int bar_width = 28;
-constexpr double line_interval = 5;  // s, in a pipe
+constexpr std::chrono::seconds line_interval{5};  // in a pipe
 constexpr std::uint64_t largest_seed = 1ULL << 53U;
 constexpr double least_shown = 0.4;  // s; stages shorter than this are not worth a line
 
@@ -42,12 +42,17 @@ std::string bar(const ProgressReport& r) {
       std::string(static_cast<std::size_t>(bar_width - full), ' '), 100 * share, amounts(r));
 }
 
+/// Of a stage within another it is the other that counts.
+void tell_duration(const ProgressReport& r) {
+  if (!r.inner && r.seconds >= least_shown)
+    write_error(fmt::format("{}: {}\n", r.stage, duration_text(r.seconds)));
+}
+
 /// On a terminal one line is drawn again and again.
 void draw(const ProgressReport& r) {
   if (r.finished) {
     write_error("\r\033[K");
-    if (r.seconds >= least_shown)
-      write_error(fmt::format("{}: {}\n", r.stage, duration_text(r.seconds)));
+    tell_duration(r);
   } else {
     write_error(fmt::format("\r{}\033[K", bar(r)));
   }
@@ -56,21 +61,18 @@ void draw(const ProgressReport& r) {
 class LinePrinter {
  public:
   void operator()(const ProgressReport& r) {
-    if (r.finished) {
-      if (r.seconds >= least_shown)
-        write_error(fmt::format("{}: {}\n", r.stage, duration_text(r.seconds)));
-      last_ = 0;
-      return;
-    }
-    if (r.seconds < last_) last_ = 0;
-    if (r.seconds - last_ < line_interval) return;
-    last_ = r.seconds;
-    const std::string share = r.total > 0 ? fmt::format(" {:.0f} %", 100 * r.done / r.total) : "";
-    write_error(fmt::format("{}:{}{}\n", r.stage, share, amounts(r)));
+    if (r.finished) return tell_duration(r);
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_ < line_interval) return;
+    last_ = now;
+    std::string text = r.total > 0 ? fmt::format(" {:.0f} %", 100 * r.done / r.total) : "";
+    text += amounts(r);
+    if (text.empty()) text = " " + duration_text(r.seconds) + " so far";
+    write_error(fmt::format("{}:{}\n", r.stage, text));
   }
 
  private:
-  double last_ = 0;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace

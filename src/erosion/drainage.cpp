@@ -105,7 +105,7 @@ Description<Drainage> describe(const Drainage&) {
 TerrainResult drainage(const Heightfield& input, const Drainage& p, const TerrainContext& context) {
   check_erosion(input, p);
   Progress& progress = context.progress;
-  progress.begin("drainage", 4, "passes");
+  const ProgressStage stage(progress, "drainage", 4, "passes");
   const Grid<float> notched = with_notches(input, p, progress);
   const Heightfield ground{p.depressions == DepressionMethod::none
                                ? notched
@@ -139,7 +139,6 @@ TerrainResult drainage(const Heightfield& input, const Drainage& p, const Terrai
   progress.advance();
   result.field = p.change_ground ? ground : input;
   result.balances = {balance_of(input, result.field.height)};
-  progress.end();
   return result;
 }
 

@@ -16,14 +16,17 @@ Sides held_sides(HillslopeBorder border) {
   return {open, open, open, open};
 }
 
+/// κ t, m².
+double spread_of(const Hillslope& p) {
+  return static_cast<double>(p.diffusivity) * static_cast<double>(p.years);
+}
+
 void creep_linearly(Grid<double>& height, double cell, const Hillslope& p, Progress& progress) {
-  const double spread =
-      static_cast<double>(p.diffusivity) * static_cast<double>(p.years) / (cell * cell);
+  const double spread = spread_of(p) / (cell * cell);
   const int steps = std::clamp(static_cast<int>(std::ceil(spread / 0.5)), 1, 400);
-  progress.begin("hillslope", steps, "steps");
   for (int s = 0; s < steps; ++s) {
     diffuse(height, spread / steps, held_sides(p.border), progress);
-    progress.advance();
+    progress.advance(spread_of(p) / steps);
   }
 }
 
@@ -98,8 +101,7 @@ class CriticalCreep {
 
 void creep_critically(Grid<double>& height, double cell, const Hillslope& p, Progress& progress) {
   CriticalCreep creep(height, cell, p);
-  double left = static_cast<double>(p.diffusivity) * static_cast<double>(p.years);
-  progress.begin("hillslope", left, "m²");
+  double left = spread_of(p);
   while (left > 0) {
     const double spread = std::min(left, 0.2 * cell * cell / creep.find_fluxes(progress));
     creep.move(spread, progress);
@@ -142,6 +144,7 @@ TerrainResult hillslope(const Heightfield& input, const Hillslope& p,
                         const TerrainContext& context) {
   check_erosion(input, p);
   Progress& progress = context.progress;
+  const ProgressStage stage(progress, "hillslope", spread_of(p), "m²");
   const auto input_height = [&](int i, int j) { return static_cast<double>(input.height(i, j)); };
   Grid<double> height = map_grid<double>(input, progress, input_height);
   if (p.critical_slope > 0)
@@ -157,13 +160,11 @@ TerrainResult hillslope(const Heightfield& input, const Hillslope& p,
   });
   result.balances = {balance_of(input, result.field.height, result.maps["change"],
                                 p.border == HillslopeBorder::open)};
-  progress.end();
   return result;
 }
 
 double reach_of(const Hillslope& p, double cell) {
-  return cell +
-         6 * std::sqrt(2 * static_cast<double>(p.diffusivity) * static_cast<double>(p.years));
+  return cell + 6 * std::sqrt(2 * spread_of(p));
 }
 
 }  // namespace wold

@@ -206,7 +206,7 @@ Analysis analyze(const Heightfield& field, const AnalysisOptions& options, Progr
   Analysis a;
   a.options = options;
   a.field = field;
-  progress.begin("analysis", 4, "parts");
+  const ProgressStage stage(progress, "analysis", 4, "parts");
   measure_heights(a);
   progress.advance();
   measure_slopes(a);
@@ -216,7 +216,6 @@ Analysis analyze(const Heightfield& field, const AnalysisOptions& options, Progr
   progress.advance();
   measure_drainage(a, progress);
   progress.advance();
-  progress.end();
   return a;
 }
 

@@ -265,7 +265,8 @@ void fill_fractal(GridView<float> out, const Fractal& f, DVec2 origin, double st
   constexpr int tile_height = 64;
   const int across = (out.width() + tile_width - 1) / tile_width;
   const int up = (out.height() + tile_height - 1) / tile_height;
-  progress.begin("fractal", static_cast<double>(out.width()) * out.height(), "samples");
+  const ProgressStage stage(progress, "fractal", static_cast<double>(out.width()) * out.height(),
+                            "samples");
   parallel_for(0, across * up, [&](int task) {
     progress.check();
     const int column = task % across * tile_width;
@@ -276,7 +277,6 @@ void fill_fractal(GridView<float> out, const Fractal& f, DVec2 origin, double st
     ({out.sub(column, row, width, height), column, row, origin, step, octaves}, sampler);
     progress.advance(static_cast<double>(width) * height);
   });
-  progress.end();
 }
 
 }  // namespace wold

@@ -334,7 +334,8 @@ void fill_noise(GridView<float> out, NoiseBasis basis, DVec2 origin, double step
                 std::uint32_t seed, Progress& progress) {
   const int across = (out.width() + tile_columns - 1) / tile_columns;
   const int up = (out.height() + tile_rows - 1) / tile_rows;
-  progress.begin("noise", static_cast<double>(out.width()) * out.height(), "samples");
+  const ProgressStage stage(progress, "noise", static_cast<double>(out.width()) * out.height(),
+                            "samples");
   const std::uint32_t key = lattice_key(seed);
   parallel_for(0, across * up, [&](int task) {
     progress.check();
@@ -346,7 +347,6 @@ void fill_noise(GridView<float> out, NoiseBasis basis, DVec2 origin, double step
     ({out.sub(column, row, width, height), column, row, basis, origin, step, key});
     progress.advance(static_cast<double>(width) * height);
   });
-  progress.end();
 }
 
 }  // namespace wold

@@ -23,16 +23,15 @@ constexpr float nothing = -std::numeric_limits<float>::infinity();
 
 /// Calls `work(k)` for k below `count`, on many threads; a stage of the progress.
 template <class Work>
-void for_each(const char* stage, const char* unit, std::size_t count, Progress& progress,
+void for_each(const char* name, const char* unit, std::size_t count, Progress& progress,
               const Work& work) {
-  progress.begin(stage, static_cast<double>(count), unit);
+  const ProgressStage stage(progress, name, static_cast<double>(count), unit);
   constexpr std::size_t chunk = 4096;
   parallel_for(0, static_cast<int>((count + chunk - 1) / chunk), [&](int c) {
     const std::size_t first = static_cast<std::size_t>(c) * chunk;
     for (std::size_t k = first; k < std::min(count, first + chunk); ++k) work(k);
     progress.advance(chunk);
   });
-  progress.end();
 }
 
 void check_mesh(std::span<const DVec3> positions, std::span<const UVec3> triangles) {

@@ -114,7 +114,7 @@ class Evaluation {
         step_seed(seed_, step, place), domain_, folder_, named_, progress_, &maps_};
     const Heightfield& input =
         step.settings.input.empty() ? ground_ : context.step(step.settings.input).field;
-    progress_.begin(name, input.height.height(), "rows");
+    const ProgressStage stage(progress_, name, 0, "");
     TerrainResult result = run_at_cell(op, input, step.parameters, cell_of(step, input), context);
     if (!result.field.height.same_shape(input.height))
       throw Error(ErrorKind::internal,
@@ -123,7 +123,6 @@ class Evaluation {
     if (has_mask(step.settings)) mask = step_mask(input, step.settings, context);
     blend_into(result.field.height, input.height, actual_blend(step, op), mask);
     progress_.check();
-    progress_.end();
     keep(step, std::move(result));
   }
 

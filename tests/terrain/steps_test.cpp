@@ -218,6 +218,18 @@ TEST(TerrainSteps, CanBeCancelled) {
             "no error");
 }
 
+TEST(TerrainSteps, EachIsAStageOfTheProgressToItsEnd) {
+  std::vector<std::string> finished;
+  Progress progress([&](const ProgressReport& r) {
+    EXPECT_NE(r.stage, "");
+    if (r.finished && !r.inner) finished.push_back(r.stage);
+  });
+  const Steps steps = landscape();
+  evaluate(small, steps.list(), steps.operators(), 1, {}, progress);
+  EXPECT_EQ(finished,
+            (std::vector<std::string>{"ridged", "warp", "fbm", "flats", "blur", "terrace"}));
+}
+
 TEST(TerrainSteps, UnknownOperatorSuggestsTheNearest) {
   EXPECT_EQ(error_text([] {
               make_step(terrain_operators(), "rigded", {"scene.toml", 12, 6});
