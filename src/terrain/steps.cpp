@@ -85,9 +85,11 @@ Blend actual_blend(const TerrainStep& step, const TerrainOperator& op) {
 /// Runs one step after another.
 class Evaluation {
  public:
-  Evaluation(const TerrainDomain& domain, Heightfield ground, std::uint64_t seed,
+  /// `cell` is the distance between the terrain's own samples, of which `ground` may have fewer.
+  Evaluation(const TerrainDomain& domain, double cell, Heightfield ground, std::uint64_t seed,
              const std::filesystem::path& folder, Progress& progress)
       : domain_(domain),
+        cell_(cell),
         seed_(seed),
         folder_(folder),
         progress_(progress),
@@ -126,11 +128,11 @@ class Evaluation {
     keep(step, std::move(result));
   }
 
-  /// Coarse land around the terrain is not worth finer steps than its own samples.
+  /// A coarser view of the terrain, such as the land around it, is not worth finer steps than its
+  /// own samples.
   double cell_of(const TerrainStep& step, const Heightfield& input) const {
-    const double cell = step.settings.cell;
-    const bool surroundings = input.size().x > 1.5 * domain_.size.x;
-    return cell > 0 && surroundings && input.cell > cell ? 0 : cell;
+    const bool coarser = input.cell > (1 + 1e-6) * cell_;
+    return coarser && input.cell > step.settings.cell ? 0 : step.settings.cell;
   }
 
   void keep(const TerrainStep& step, TerrainResult result) {
@@ -148,6 +150,7 @@ class Evaluation {
   }
 
   TerrainDomain domain_;
+  double cell_;
   std::uint64_t seed_;
   const std::filesystem::path& folder_;
   Progress& progress_;
@@ -257,7 +260,8 @@ TerrainResult evaluate(const TerrainSettings& settings, const TerrainWindow& win
                        const std::filesystem::path& folder, Progress& progress) {
   check_terrain(window, steps, operators, folder);
   const int margin = margin_of(window, steps, operators);
-  Evaluation evaluation(domain_of(settings), flat(grown(window, margin)), seed, folder, progress);
+  Evaluation evaluation(domain_of(settings), window_of(settings).cell, flat(grown(window, margin)),
+                        seed, folder, progress);
   evaluation.run_all(steps, operators);
   TerrainResult result = evaluation.take();
   result.field = {cropped(result.field.height, margin), window.origin, window.cell};
@@ -271,7 +275,8 @@ TerrainResult evaluate_on(const Heightfield& ground, std::span<const TerrainStep
   const Grid<float>& height = ground.height;
   const TerrainWindow window{ground.origin, ground.cell, height.width(), height.height()};
   check_terrain(window, steps, operators, folder);
-  Evaluation evaluation({ground.origin, ground.size()}, ground, seed, folder, progress);
+  Evaluation evaluation({ground.origin, ground.size()}, ground.cell, ground, seed, folder,
+                        progress);
   evaluation.run_all(steps, operators);
   return evaluation.take();
 }

@@ -85,6 +85,25 @@ TEST(StepCell, OfZeroIsTheTerrainsOwn) {
   EXPECT_EQ(result.field.height(50, 50), whole.field.height(50, 50) / 2);
 }
 
+/// The distance of the samples that a step with a cell of 5 m sees in a window on terrain whose own
+/// samples are 10 m apart.
+float cell_seen(const TerrainWindow& window) {
+  const std::vector<TerrainStep> steps{step("fbm", {}), step("halve", {{"cell", 5.0}})};
+  Progress progress;
+  return evaluate(small, window, steps, operators(), 1, {}, progress).maps.at("seen")(3, 4);
+}
+
+TEST(StepCell, IsNeverFinerThanTheSamplesOfACoarserView) {
+  EXPECT_EQ(cell_seen({DVec2(-2000), 40, 101, 101}), 40) << "the land around";
+  EXPECT_EQ(cell_seen({DVec2(-500), 20, 51, 51}), 20) << "the terrain itself, coarser";
+}
+
+TEST(StepCell, MayBeFinerThanTheTerrainsSamples) {
+  EXPECT_EQ(cell_seen(window_of(small)), 5);
+  EXPECT_EQ(cell_seen({DVec2(-300), 10, 21, 21}), 5) << "a part of it";
+  EXPECT_EQ(cell_seen({DVec2(-1500), 10, 301, 21}), 5) << "more than it";
+}
+
 TEST(StepCell, TooFineACellIsRefusedWithItsSize) {
   const std::string text = error_text(
       [] {
