@@ -111,6 +111,18 @@ std::string override_of(const std::string& setting, std::size_t count) {
                           setting));
 }
 
+/// The same error, that speaks of the settings as the user wrote them.
+Error with_settings(const Error& error, const std::vector<std::string>& overrides,
+                    const std::vector<std::string>& settings) {
+  std::string message = error.message();
+  SourceLocation where = error.location();
+  for (std::size_t k = 0; k < settings.size(); ++k)
+    for (std::string* text : {&message, &where.file})
+      if (const auto at = text->find(overrides[k]); at != std::string::npos)
+        text->replace(at, overrides[k].size(), settings[k]);
+  return {error.kind(), message, where};
+}
+
 class ErodeRun {
  public:
   ErodeRun(const Session& session, ErodeOptions options)
@@ -155,13 +167,18 @@ class ErodeRun {
   Scene scene_of_operators() const {
     const OperatorList known = scene_operators();
     for (const std::string& op : options_.operators) find_operator(known, op);
+    const std::vector<std::string> settings = session_.overrides();
     std::vector<std::string> overrides;
-    for (const std::string& setting : session_.overrides())
+    for (const std::string& setting : settings)
       overrides.push_back(
           setting.starts_with("seed=") ? setting : override_of(setting, options_.operators.size()));
-    Scene scene = parse_scene(steps_text(options_.operators), "--op", {}, overrides);
-    for (TerrainStep& step : scene.steps) step.location = {};
-    return scene;
+    try {
+      Scene scene = parse_scene(steps_text(options_.operators), "--op", {}, overrides);
+      for (TerrainStep& step : scene.steps) step.location = {};
+      return scene;
+    } catch (const Error& error) {
+      throw with_settings(error, overrides, settings);
+    }
   }
 
   void write(const TerrainResult& result, const Subject& before, double seconds) const {
