@@ -61,6 +61,17 @@ class QuietGdal {
   static std::string complaint() { return CPLGetLastErrorMsg(); }
 };
 
+/// `complaint` is GDAL's, and often empty.
+Error unreadable(const std::string& path, const std::string& complaint) {
+  std::string message = fmt::format("{}: no elevation data that can be read", path);
+  if (!complaint.empty()) message += ": " + complaint;
+  if (extension_of(path) == ".hgt")
+    message +=
+        "; an SRTM file is named for its place, such as N46E008.hgt, and has 1201 x 1201, 3601 x "
+        "1801 or 3601 x 3601 heights";
+  return {ErrorKind::input, message};
+}
+
 struct CloseDataset {
   void operator()(void* dataset) const { GDALClose(dataset); }
 };
@@ -185,8 +196,7 @@ std::optional<Elevation> read_geodata(const std::string& path) {
       GDALOpenEx(path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
   if (dataset == nullptr) {
     if (!is_elevation_format(path)) return std::nullopt;
-    throw Error(ErrorKind::input, fmt::format("{}: no elevation data that can be read: {}", path,
-                                              QuietGdal::complaint()));
+    throw unreadable(path, QuietGdal::complaint());
   }
   std::array<double, 6> place{};
   if (GDALGetGeoTransform(dataset.get(), place.data()) != CE_None) {

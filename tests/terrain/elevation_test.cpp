@@ -162,6 +162,16 @@ TEST(Elevation, RefusesWhatIsAskewOrBroken) {
             std::string::npos);
 }
 
+TEST(Elevation, AnSrtmFileOfAnotherNameIsToldHowTheyAreNamed) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("alps.hgt");
+  std::ofstream(file, std::ios::binary) << std::string(std::size_t{2} * 1201 * 1201, '\0');
+  EXPECT_EQ(error_text([&] { read_elevation(file); }),
+            file +
+                ": no elevation data that can be read; an SRTM file is named for its place, such "
+                "as N46E008.hgt, and has 1201 x 1201, 3601 x 1801 or 3601 x 3601 heights");
+}
+
 #endif
 
 }  // namespace
