@@ -16,6 +16,7 @@
 #include "cli/session.hpp"
 #include "erosion/plots.hpp"
 #include "erosion/realism.hpp"
+#include "image/atomic_file.hpp"
 
 namespace wold {
 
@@ -73,7 +74,7 @@ class AnalyzeRun {
       : session_(session), options_(std::move(options)) {}
 
   void run() const {
-    check_map_folder(options_.plots);
+    if (!options_.plots.empty()) check_folder_writable(options_.plots);
     const Heightfield field = read_height_input(options_.input, options_.height, session_).field;
     Progress progress = session_.progress();
     const Analysis analysis = analyze(field, options_.analysis, progress);
@@ -86,12 +87,15 @@ class AnalyzeRun {
                 {"samples", {field.height.width(), field.height.height()}},
                 {"figures", json_of(list)}};
     if (!options_.against.empty()) report["difference"] = compare(field, analysis, progress);
-    if (!options_.plots.empty()) {
-      const std::vector<std::string> plots = write_plots(analysis, options_.plots);
-      session_.say(fmt::format("wrote {}", fmt::join(plots, ", ")));
-      report["plots"] = plots;
-    }
+    Delivery delivery;
+    if (!options_.plots.empty())
+      delivery.write(options_.plots, [&](const std::string& folder) {
+        const std::vector<std::string> plots = write_plots(analysis, folder);
+        session_.say(fmt::format("wrote {}", fmt::join(plots, ", ")));
+        report["plots"] = plots;
+      });
     session_.print(report);
+    delivery.check();
   }
 
  private:

@@ -34,9 +34,7 @@ struct ErodeOptions {
   std::vector<std::string> operators;
   std::string steps;
   std::string mask;
-  std::string maps;
-  bool map_pictures = false;
-  std::string preview;
+  SideOutputs side;
   double cell = 0;
   std::string up = "z";
   ProjectionSettings projection;
@@ -153,8 +151,7 @@ class ErodeRun {
     if (options_.outputs.empty())
       throw Error(ErrorKind::usage, "say where the result goes, as with -o eroded.exr");
     for (const std::string& output : options_.outputs) check_output(output);
-    check_map_folder(options_.maps);
-    check_preview(options_.preview);
+    options_.side.check();
   }
 
   void check_output(const std::string& output) const {
@@ -183,23 +180,22 @@ class ErodeRun {
 
   void write(const TerrainResult& result, const Subject& before, double seconds) const {
     const std::optional<Range> range = range_for(result.field, before.range);
+    Delivery delivery;
     std::vector<ExportReport> reports;
     Json meshes = Json::array();
-    for (const std::string& output : options_.outputs) {
-      if (before.mesh && is_mesh(output)) {
-        meshes.push_back(write_moved(before, result.field, output));
-        continue;
-      }
-      reports.push_back(export_heightfield(result.field, output, {.range = range}));
-      session_.say(told(reports.back()));
-    }
-    std::vector<std::string> maps;
-    if (!options_.maps.empty())
-      maps = export_maps(all_maps(result), options_.maps, options_.map_pictures);
-    if (!maps.empty()) session_.say(fmt::format("wrote {}", fmt::join(maps, ", ")));
-    if (!options_.preview.empty()) write_preview(options_.preview, result.field);
+    for (const std::string& output : options_.outputs)
+      delivery.write(output, [&](const std::string& path) {
+        if (before.mesh && is_mesh(path)) {
+          meshes.push_back(write_moved(before, result.field, path));
+          return;
+        }
+        reports.push_back(export_heightfield(result.field, path, {.range = range}));
+        session_.say(told(reports.back()));
+      });
+    const std::vector<std::string> maps = options_.side.write(result, delivery, session_);
     tell_balances(result.balances);
     report(result, before.field, reports, meshes, maps, seconds);
+    delivery.check();
   }
 
   /// The mesh with its vertices moved as the ground beneath them was.
@@ -311,15 +307,7 @@ void add_erode(CLI::App& app, Session& session) {
                    "detail stays")
       ->check(CLI::PositiveNumber)
       ->type_name("METRES");
-  command
-      ->add_option("--maps", options->maps,
-                   "Folder for maps: those of the operators, slope and curvature")
-      ->type_name("FOLDER");
-  command->add_flag("--map-pictures", options->map_pictures,
-                    "Write each map also as a picture from black to white (.png)");
-  command
-      ->add_option("--preview", options->preview, "Write the land in slanting light as a picture")
-      ->type_name("FILE");
+  options->side.add_to(*command);
   command->add_option("--seed", session.seed, "Another number gives other random numbers")
       ->type_name("N");
   command

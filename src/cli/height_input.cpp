@@ -23,13 +23,13 @@ std::optional<double> number_of(std::string_view text) {
   return value;
 }
 
-/// "a" or "a<sign>b".
-std::optional<DVec2> pair_of(const std::string& text, char sign, double first_alone) {
+/// "a<sign>b", or "b" alone, which is after 0.
+std::optional<DVec2> pair_of(const std::string& text, char sign) {
   const std::size_t middle = text.find(sign, 1);
   if (middle == std::string::npos) {
     const auto alone = number_of(text);
     if (!alone) return std::nullopt;
-    return DVec2(first_alone, *alone);
+    return DVec2(0, *alone);
   }
   const auto first = number_of(std::string_view(text).substr(0, middle));
   const auto second = number_of(std::string_view(text).substr(middle + 1));
@@ -39,7 +39,7 @@ std::optional<DVec2> pair_of(const std::string& text, char sign, double first_al
 
 /// Width and, if given, depth; the depth is 0 otherwise.
 DVec2 size_of(const std::string& text) {
-  const auto size = pair_of(text, 'x', 0);
+  const auto size = pair_of(text, 'x');
   const bool both = text.find('x') != std::string::npos;
   if (!size || size->y <= 0 || (both && size->x <= 0))
     throw Error(ErrorKind::usage,
@@ -48,7 +48,7 @@ DVec2 size_of(const std::string& text) {
 }
 
 Range height_of(const std::string& text) {
-  const auto range = pair_of(text, ':', 0);
+  const auto range = pair_of(text, ':');
   if (!range || range->y <= range->x)
     throw Error(ErrorKind::usage,
                 fmt::format("'--height {}' must be metres, such as 1500 or 200:1700", text));

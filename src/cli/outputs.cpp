@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
 
-#include "base/error.hpp"
 #include "image/atomic_file.hpp"
 #include "image/io.hpp"
 #include "terrain/analysis.hpp"
 
 namespace wold {
+
+namespace {
 
 std::map<std::string, Grid<float>> all_maps(const TerrainResult& terrain) {
   std::map<std::string, Grid<float>> maps = terrain.maps;
@@ -18,24 +21,38 @@ std::map<std::string, Grid<float>> all_maps(const TerrainResult& terrain) {
   return maps;
 }
 
-void check_map_folder(const std::string& folder) {
-  if (folder.empty()) return;
-  std::error_code ignored;
-  if (std::filesystem::is_directory(folder, ignored)) {
-    check_writable(folder + "/slope.exr");
-    return;
-  }
-  if (std::filesystem::exists(folder, ignored))
-    throw Error(ErrorKind::io, fmt::format("cannot write maps into '{}': it is no folder", folder));
-}
-
-void check_preview(const std::string& path) {
-  static const std::vector<std::string> extensions{".png"};
-  if (!path.empty()) check_writable(path, extensions);
-}
-
 void write_preview(const std::string& path, const Heightfield& field) {
   write_png(path, image_of(hillshade(field)), {.bits = 8});
+}
+
+}  // namespace
+
+void SideOutputs::add_to(CLI::App& command) {
+  command.add_option("--maps", maps, "Folder for maps: slope, curvature, and those of the steps")
+      ->type_name("FOLDER");
+  command.add_flag("--map-pictures", map_pictures,
+                   "Write each map also as a picture from black to white (.png)");
+  command.add_option("--preview", preview, "Write the land in slanting light as a picture")
+      ->type_name("FILE");
+}
+
+void SideOutputs::check() const {
+  static const std::vector<std::string> pictures{".png"};
+  if (!maps.empty()) check_folder_writable(maps);
+  if (!preview.empty()) check_writable(preview, pictures);
+}
+
+std::vector<std::string> SideOutputs::write(const TerrainResult& terrain, Delivery& delivery,
+                                            const Session& session) const {
+  std::vector<std::string> paths;
+  if (!maps.empty())
+    delivery.write(maps, [&](const std::string& folder) {
+      paths = export_maps(all_maps(terrain), folder, map_pictures);
+    });
+  if (!paths.empty()) session.say(fmt::format("wrote {}", fmt::join(paths, ", ")));
+  if (!preview.empty())
+    delivery.write(preview, [&](const std::string& path) { write_preview(path, terrain.field); });
+  return paths;
 }
 
 Json json_of(const ExportReport& r) {

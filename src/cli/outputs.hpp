@@ -2,25 +2,34 @@
 // What the commands that make land have in common: its files, its maps, its preview.
 
 #include <string>
+#include <vector>
 
+#include "cli/delivery.hpp"
 #include "cli/session.hpp"
 #include "terrain/export.hpp"
 #include "terrain/operator.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace wold {
 
-/// Slope and curvature besides what the steps made: what every material in an engine wants.
-std::map<std::string, Grid<float>> all_maps(const TerrainResult& terrain);
+/// What may be written besides the land itself. Empty names are none.
+struct SideOutputs {
+  std::string maps;           ///< folder
+  bool map_pictures = false;  ///< each map as PNG too
+  std::string preview;        ///< picture of the land in slanting light
 
-/// To be called before long work. The folder may be missing; an empty name is none. Throws
-/// Error(io).
-void check_map_folder(const std::string& folder);
-
-/// To be called before long work; an empty name is none. Throws Error(usage) or Error(io).
-void check_preview(const std::string& path);
-
-/// The land in slanting light.
-void write_preview(const std::string& path, const Heightfield& field);
+  /// Adds --maps, --map-pictures and --preview.
+  void add_to(CLI::App& command);
+  /// To be called before long work. Throws Error(usage) or Error(io).
+  void check() const;
+  /// Writes the maps of the steps with slope and curvature, which every material in an engine
+  /// wants, and the preview. Returns the paths of the maps.
+  std::vector<std::string> write(const TerrainResult& terrain, Delivery& delivery,
+                                 const Session& session) const;
+};
 
 Json json_of(const ExportReport& report);
 /// What was moved, added and removed, for --json.

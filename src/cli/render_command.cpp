@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "cli/commands.hpp"
+#include "cli/delivery.hpp"
 #include "cli/session.hpp"
 #include "image/atomic_file.hpp"
 #include "image/io.hpp"
@@ -98,8 +99,7 @@ class RenderRun {
     complete_ = !interrupted;
     write();
     report(built, counts, build_seconds, render_seconds, interrupted);
-    if (!failures_.empty())
-      throw Error(ErrorKind::io, fmt::format("{}", fmt::join(failures_, "; ")));
+    delivery_.check();
     if (interrupted)
       throw Error(
           ErrorKind::cancelled,
@@ -180,35 +180,15 @@ class RenderRun {
     write_exr(path, image, exr);
   }
 
-  /// What took minutes is not lost to a full disk: a picture that cannot be written where it was
-  /// wanted goes to the folder for temporary files, if it can.
   void write() {
     const Image image = film_.image();
-    for (std::string& output : options_.outputs) {
-      try {
-        write_one(output, image);
-      } catch (const Error& error) {
-        const std::string refuge = written_elsewhere(output, image);
-        failures_.push_back(refuge.empty()
-                                ? error.what()
-                                : fmt::format("{}; saved as '{}' instead", error.what(), refuge));
-        if (!refuge.empty()) output = refuge;
-      }
+    std::vector<std::string> written;
+    for (const std::string& output : options_.outputs) {
+      const std::string path =
+          delivery_.write(output, [&](const std::string& p) { write_one(p, image); });
+      if (!path.empty()) written.push_back(path);
     }
-  }
-
-  /// The path where the picture could be written after all; empty if nowhere.
-  std::string written_elsewhere(const std::string& output, const Image& image) const {
-    std::error_code ignored;
-    const std::filesystem::path folder = std::filesystem::temp_directory_path(ignored);
-    const std::filesystem::path refuge = folder / std::filesystem::path(output).filename();
-    if (folder.empty() || std::filesystem::exists(refuge, ignored)) return {};
-    try {
-      write_one(refuge.string(), image);
-      return refuge.string();
-    } catch (const Error&) {
-      return {};
-    }
+    options_.outputs = written;
   }
 
   void report(const BuiltScene& built, const RenderCounts& counts, double build_seconds,
@@ -216,7 +196,7 @@ class RenderRun {
     if (film_.rejected() > 0)
       session_.say(fmt::format("wold: warning: {} samples were not finite and were left out",
                                film_.rejected()));
-    if (!interrupted && failures_.empty())
+    if (!interrupted && delivery_.complete())
       session_.say(fmt::format("wrote {} ({} x {}, {} samples, scene {}, rendering {})",
                                fmt::join(options_.outputs, " and "), film_.width(), film_.height(),
                                range_.last - range_.first, duration_text(build_seconds),
@@ -256,8 +236,8 @@ class RenderRun {
   Scene scene_;
   SampleRange range_;
   Film film_;
-  bool complete_ = false;              ///< every sample of the range was traced
-  std::vector<std::string> failures_;  ///< of writing
+  bool complete_ = false;  ///< every sample of the range was traced
+  Delivery delivery_;
 };
 
 }  // namespace

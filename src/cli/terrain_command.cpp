@@ -27,9 +27,7 @@ struct TerrainOptions {
   std::vector<std::string> outputs;
   int resolution = 0;
   std::string preset;
-  std::string maps;
-  bool map_pictures = false;
-  std::string preview;
+  SideOutputs side;
 };
 
 class TerrainRun {
@@ -43,18 +41,17 @@ class TerrainRun {
     const auto start = std::chrono::steady_clock::now();
     const TerrainResult terrain = build_terrain(scene_, progress);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    Delivery delivery;
     std::vector<ExportReport> reports;
-    for (const std::string& output : options_.outputs) {
-      reports.push_back(preset_ ? export_for_engine(terrain.field, output, *preset_)
-                                : export_heightfield(terrain.field, output));
-      tell(reports.back());
-    }
-    std::vector<std::string> maps;
-    if (!options_.maps.empty())
-      maps = export_maps(all_maps(terrain), options_.maps, options_.map_pictures);
-    if (!maps.empty()) session_.say(fmt::format("wrote {}", fmt::join(maps, ", ")));
-    if (!options_.preview.empty()) write_preview(options_.preview, terrain.field);
+    for (const std::string& output : options_.outputs)
+      delivery.write(output, [&](const std::string& path) {
+        reports.push_back(preset_ ? export_for_engine(terrain.field, path, *preset_)
+                                  : export_heightfield(terrain.field, path));
+        tell(reports.back());
+      });
+    const std::vector<std::string> maps = options_.side.write(terrain, delivery, session_);
     report(terrain, reports, maps, seconds.count());
+    delivery.check();
   }
 
  private:
@@ -72,8 +69,7 @@ class TerrainRun {
       check_export(output);
       if (preset_) check_engine_export(*preset_, output, window.width, window.height);
     }
-    check_preview(options_.preview);
-    check_map_folder(options_.maps);
+    options_.side.check();
     try {
       check_terrain(window, scene_.steps, scene_operators(), scene_.folder);
     } catch (const Error& error) {
@@ -150,15 +146,7 @@ void add_terrain(CLI::App& app, Session& session) {
       ->add_option("--preset", options->preset,
                    "Size, format and numbers for an engine: unreal, unity or godot")
       ->type_name("ENGINE");
-  command
-      ->add_option("--maps", options->maps,
-                   "Folder for maps: slope, curvature, and those of the steps")
-      ->type_name("FOLDER");
-  command->add_flag("--map-pictures", options->map_pictures,
-                    "Write each map also as a picture from black to white (.png)");
-  command
-      ->add_option("--preview", options->preview, "Write the land in slanting light as a picture")
-      ->type_name("FILE");
+  options->side.add_to(*command);
   session.add_scene_options(*command);
   session.add_output_options(*command);
   command->callback([&session, options] {

@@ -4,10 +4,9 @@
 
 #include <cmath>
 #include <filesystem>
-#include <system_error>
 
-#include "base/error.hpp"
 #include "erosion/plot_chart.hpp"
+#include "image/atomic_file.hpp"
 #include "image/io.hpp"
 
 namespace wold {
@@ -145,16 +144,13 @@ std::vector<Plot> plots(const Analysis& a) {
 }
 
 std::vector<std::string> write_plots(const Analysis& analysis, const std::string& folder) {
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed)
-    throw Error(ErrorKind::io,
-                fmt::format("cannot make the folder '{}': {}", folder, failed.message()));
   std::vector<std::string> paths;
-  for (const Plot& plot : plots(analysis)) {
-    paths.push_back((std::filesystem::path(folder) / (plot.name + ".png")).string());
-    write_png(paths.back(), plot.image, {.bits = 8, .srgb = true});
-  }
+  write_folder(folder, [&] {
+    for (const Plot& plot : plots(analysis)) {
+      paths.push_back((std::filesystem::path(folder) / (plot.name + ".png")).string());
+      write_png(paths.back(), plot.image, {.bits = 8, .srgb = true});
+    }
+  });
   return paths;
 }
 

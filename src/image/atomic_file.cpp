@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "base/error.hpp"
 
@@ -54,6 +55,20 @@ fs::path followed(const std::string& path) {
 fs::path folder_of(const fs::path& path) {
   const fs::path folder = path.parent_path();
   return folder.empty() ? fs::path(".") : folder;
+}
+
+/// "maps" of "maps/".
+fs::path bare(const fs::path& folder) {
+  return folder.has_filename() || folder == folder.root_path() ? folder : folder.parent_path();
+}
+
+/// Of the folders on the way to this one, and it; the innermost first.
+std::vector<fs::path> missing_folders(const fs::path& folder) {
+  std::vector<fs::path> list;
+  std::error_code ignored;
+  for (fs::path p = bare(folder); p != folder_of(p) && !fs::exists(p, ignored); p = folder_of(p))
+    list.push_back(p);
+  return list;
 }
 
 /// An empty new file beside `path`; removes it at the end unless it took its place.
@@ -170,6 +185,41 @@ std::string extension_of(const std::string& path) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
   return extension;
+}
+
+void write_folder(const std::string& folder, const std::function<void()>& write) {
+  const std::vector<fs::path> made = missing_folders(folder);
+  const auto take_away = [&] {
+    std::error_code ignored;
+    for (const fs::path& p : made) fs::remove(p, ignored);  // leaves what is not empty
+  };
+  std::error_code failure;
+  fs::create_directories(bare(folder), failure);
+  if (failure) {
+    const std::string why = io_reason(failure.value());
+    take_away();
+    throw Error(ErrorKind::io, fmt::format("cannot make the folder '{}': {}", folder, why));
+  }
+  try {
+    write();
+  } catch (...) {
+    take_away();
+    throw;
+  }
+}
+
+void check_folder_writable(const std::string& folder) {
+  const auto fail = [&](const std::string& why) {
+    throw Error(ErrorKind::io, fmt::format("cannot write into '{}': {}", folder, why));
+  };
+  const std::vector<fs::path> missing = missing_folders(folder);
+  const fs::path there = missing.empty() ? bare(folder) : folder_of(missing.back());
+  std::error_code ignored;
+  if (!fs::is_directory(there, ignored))
+    fail(missing.empty() ? "it is no folder" : fmt::format("'{}' is no folder", there.string()));
+  if (::access(there.c_str(), W_OK | X_OK) != 0)
+    fail(fmt::format("no new file may be made in the folder '{}' ({})", there.string(),
+                     io_reason(errno)));
 }
 
 void check_writable(const std::string& path, std::span<const std::string> extensions) {

@@ -27,6 +27,14 @@ std::string read_file(const std::string& path);
 /// not empty and has not the extension of `path` (".png"; capitals do not matter).
 void check_writable(const std::string& path, std::span<const std::string> extensions = {});
 
+/// Calls `write`, which writes files into the folder; makes the folder before, and if `write`
+/// throws and nothing is in it, takes it away again. Throws Error(io), and what `write` throws.
+void write_folder(const std::string& folder, const std::function<void()>& write);
+
+/// To be called before long work: throws Error(io) unless files could be written into the folder
+/// now, which may be missing.
+void check_folder_writable(const std::string& folder);
+
 /// "the disk is full": what a system error number means, for messages.
 std::string io_reason(int error);
 

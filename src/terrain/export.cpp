@@ -154,23 +154,20 @@ void check_export(const std::string& path) {
 
 std::vector<std::string> export_maps(const std::map<std::string, Grid<float>>& maps,
                                      const std::string& folder, bool pictures) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure)
-    throw Error(ErrorKind::io,
-                fmt::format("cannot make the folder '{}': {}", folder, failure.message()));
   std::vector<std::string> paths;
-  for (const auto& [name, image] : map_images(maps)) {
-    const std::string path = (std::filesystem::path(folder) / name).string();
-    paths.push_back(path + ".exr");
-    write_exr(paths.back(), image);
-    if (!pictures) continue;
-    paths.push_back(path + ".png");
-    if (image.channel_count() == 3)
-      write_png(paths.back(), display_encoded(image), {.bits = 8, .srgb = true});
-    else
-      write_png(paths.back(), from_black_to_white(image), {.bits = 16});
-  }
+  write_folder(folder, [&] {
+    for (const auto& [name, image] : map_images(maps)) {
+      const std::string path = (std::filesystem::path(folder) / name).string();
+      paths.push_back(path + ".exr");
+      write_exr(paths.back(), image);
+      if (!pictures) continue;
+      paths.push_back(path + ".png");
+      if (image.channel_count() == 3)
+        write_png(paths.back(), display_encoded(image), {.bits = 8, .srgb = true});
+      else
+        write_png(paths.back(), from_black_to_white(image), {.bits = 16});
+    }
+  });
   return paths;
 }
 

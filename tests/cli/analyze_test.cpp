@@ -77,6 +77,17 @@ TEST(Analyze, FlatGroundHasNoConcavity) {
   EXPECT_TRUE(json::parse(done.out)["figures"]["concavity"]["value"].is_null());
 }
 
+TEST(Analyze, LeavesNoEmptyFolderWhenPlotsDoNotFit) {
+  const Workplace place;
+  export_heightfield(hills(33), place.path("h.exr").string());
+  const Outcome outcome =
+      place.run_with_files_up_to(2000, {"analyze", "h.exr", "--plots", "plots", "-q"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find("larger than allowed"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("relief"), std::string::npos) << "the figures are told all the same";
+  EXPECT_EQ(place.files(), "h.exr scene.toml tree.lsys");
+}
+
 TEST(Analyze, MistakesAreOneLine) {
   const Workplace place;
   export_heightfield(hills(33), place.path("h.exr").string());

@@ -187,6 +187,10 @@ INSTANTIATE_TEST_SUITE_P(
                      {"ridge.exr", "--op", "blur", "--set", "9.distance=3", "-o", "o.exr"},
                      2,
                      {"'--set 9.distance=3': nothing is called '9' there"}},
+        ErodeMistake{"MapsInAFile",
+                     {"ridge.exr", "--op", "blur", "-o", "o.exr", "--maps", "ridge.exr/maps"},
+                     1,
+                     {"cannot write into 'ridge.exr/maps': 'ridge.exr' is no folder"}},
         ErodeMistake{
             "SettingOfWhich",
             {"ridge.exr", "--op", "blur", "--op", "thermal", "--set", "distance=2", "-o", "o.exr"},
@@ -197,6 +201,69 @@ INSTANTIATE_TEST_SUITE_P(
                      2,
                      {"--seed x"}}),
     [](const auto& mistake) { return mistake.param.name; });
+
+/// A second of work.
+Words slow_erosion(const Words& outputs) {
+  Words words{"erode", "ridge.exr", "--op", "droplets", "--set", "rain=3", "--threads", "1"};
+  words.insert(words.end(), outputs.begin(), outputs.end());
+  return words;
+}
+
+TEST_F(Erode, GroundIsKeptWhenItsFolderHasGone) {
+  std::filesystem::create_directory(place_.path("gone"));
+  place_.write("out.exr", "mine");
+  const Words words =
+      slow_erosion({"-o", "gone/out.exr", "-o", "second.png", "--maps", "gone/maps", "--json"});
+  const Outcome outcome = place_.during(
+      words, "ridge.exr: ", [&] { std::filesystem::remove_all(place_.path("gone")); });
+  EXPECT_EQ(outcome.exit_code, 1);
+  const json report = json::parse(outcome.out);
+  ASSERT_EQ(report["files"].size(), 2U) << outcome.err;
+  const std::string kept = report["files"][0]["path"];
+  EXPECT_EQ(std::filesystem::path(kept).filename(), "out-2.exr");
+  EXPECT_NE(outcome.err.find("wold: error: cannot write 'gone/out.exr': the folder 'gone' does not "
+                             "exist; saved as '" +
+                             kept + "' instead\n"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(read_elevation(place_.path("out-2.exr").string()).spacing, DVec2(20));
+  EXPECT_EQ(place_.read("out.exr"), "mine");
+  EXPECT_TRUE(place_.has("second.png"));
+  EXPECT_TRUE(place_.has("gone/maps/slope.exr")) << "a folder for maps is made";
+}
+
+TEST_F(Erode, GroundIsKeptAmongTemporaryFilesWhenThereIsNoOtherPlace) {
+  const Outcome outcome = place_.during(slow_erosion({"-o", "out.exr"}), "ridge.exr: ", [&] {
+    std::filesystem::remove_all(place_.path(""));
+  });
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_TRUE(std::filesystem::exists(place_.temporary("out.exr"))) << outcome.err;
+  EXPECT_NE(outcome.err.find("saved as '" + place_.temporary("out.exr").string() + "' instead\n"),
+            std::string::npos)
+      << outcome.err;
+}
+
+TEST_F(Erode, MapsAreKeptBesideAFileOfTheirName) {
+  const Outcome outcome = place_.run({"erode", "ridge.exr", "--op", "blur", "-o", "o.exr", "--maps",
+                                      "o.exr", "--preview", "p.png"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  for (const char* file : {"o.exr", "o-2.exr/slope.exr", "p.png"})
+    EXPECT_TRUE(place_.has(file)) << file;
+  EXPECT_NE(outcome.err.find("wold: error: cannot make the folder 'o.exr'"), std::string::npos)
+      << outcome.err;
+}
+
+TEST_F(Erode, EveryFileIsTriedThoughOthersFail) {
+  const Words words{"erode", "ridge.exr", "--op",   "blur", "-o", "large.obj",
+                    "-o",    "small.r16", "--maps", "maps", "-q"};
+  const Outcome outcome = place_.run_with_files_up_to(6500, words);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("'large.obj'"), std::string::npos) << outcome.err;
+  EXPECT_EQ(place_.read("small.r16").size(), 2U * 65 * 49);
+  EXPECT_EQ(place_.files(), "plain.png ridge.exr ridge.png scene.toml small.r16 tree.lsys")
+      << "nothing half-written, no empty folder";
+}
 
 TEST_F(Erode, MaskThatIsNotThere) {
   const Outcome outcome =

@@ -1,6 +1,7 @@
 #include "process.hpp"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -85,6 +86,7 @@ Workplace::Workplace() {
   std::string name = (fs::temp_directory_path() / "wold-test-XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
   folder_ = name;
+  fs::create_directory(temporary(""));
   write("scene.toml", small_scene);
   write("tree.lsys", small_plant);
 }
@@ -92,7 +94,12 @@ Workplace::Workplace() {
 Workplace::~Workplace() {
   std::error_code ignored;
   fs::remove_all(folder_, ignored);
+  fs::remove_all(temporary(""), ignored);
   for (const char* stream : {".out", ".err"}) fs::remove(folder_.string() + stream, ignored);
+}
+
+fs::path Workplace::temporary(const std::string& name) const {
+  return fs::path(folder_.string() + ".tmp") / name;
 }
 
 void Workplace::write(const std::string& name, const std::string& text) const {
@@ -126,6 +133,7 @@ pid_t Workplace::start(const std::vector<std::string>& arguments, const std::str
   redirect(STDOUT_FILENO, out);
   redirect(STDERR_FILENO, err);
   if (chdir(folder_.c_str()) != 0) _exit(126);
+  setenv("TMPDIR", temporary("").c_str(), 1);
   execv(WOLD_PROGRAM, pointers.data());
   _exit(127);
 }
@@ -141,8 +149,31 @@ Outcome Workplace::run(const std::vector<std::string>& arguments, const std::str
           stderr_to.empty() ? text_of(err) : "", since(begun)};
 }
 
+Outcome Workplace::run_with_files_up_to(std::size_t bytes,
+                                        const std::vector<std::string>& arguments) const {
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{bytes, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);  // the program inherits it, and that the signal is ignored
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  Outcome outcome = run(arguments);
+  std::signal(SIGXFSZ, handler);
+  setrlimit(RLIMIT_FSIZE, &before);
+  return outcome;
+}
+
 Outcome Workplace::interrupt(const std::vector<std::string>& arguments, int signal,
                              const std::string& sign, double seconds) const {
+  return act(arguments, sign, seconds, [&](pid_t child) { kill(child, signal); });
+}
+
+Outcome Workplace::during(const std::vector<std::string>& arguments, const std::string& sign,
+                          const std::function<void()>& action) const {
+  return act(arguments, sign, 0, [&](pid_t) { action(); });
+}
+
+Outcome Workplace::act(const std::vector<std::string>& arguments, const std::string& sign,
+                       double seconds, const Action& action) const {
   const std::string out = folder_.string() + ".out";
   const std::string err = folder_.string() + ".err";
   const pid_t child = start(arguments, out, err);
@@ -159,10 +190,10 @@ Outcome Workplace::interrupt(const std::vector<std::string>& arguments, int sign
       return {exit_code_of(status), text_of(out), text_of(err), 0};
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  const auto signalled = Clock::now();
-  kill(child, signal);
+  const auto acted = Clock::now();
+  action(child);
   waitpid(child, &status, 0);
-  return {exit_code_of(status), text_of(out), text_of(err), since(signalled)};
+  return {exit_code_of(status), text_of(out), text_of(err), since(acted)};
 }
 
 }  // namespace wold::testing

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ class Workplace {
   Workplace& operator=(const Workplace&) = delete;
 
   std::filesystem::path path(const std::string& name) const { return folder_ / name; }
+  /// In the program's folder for temporary files.
+  std::filesystem::path temporary(const std::string& name) const;
   void write(const std::string& name, const std::string& text) const;
   std::string read(const std::string& name) const;
   bool has(const std::string& name) const { return std::filesystem::exists(path(name)); }
@@ -38,10 +41,19 @@ class Workplace {
   /// `seconds`, for an empty one), and waits.
   Outcome interrupt(const std::vector<std::string>& arguments, int signal, const std::string& sign,
                     double seconds = 0) const;
+  /// Runs it, calls `action` once its standard error contains `sign`, and waits.
+  Outcome during(const std::vector<std::string>& arguments, const std::string& sign,
+                 const std::function<void()>& action) const;
+  /// Runs it where no file may grow beyond this.
+  Outcome run_with_files_up_to(std::size_t bytes, const std::vector<std::string>& arguments) const;
 
  private:
+  using Action = std::function<void(pid_t)>;
+
   pid_t start(const std::vector<std::string>& arguments, const std::string& out,
               const std::string& err) const;
+  Outcome act(const std::vector<std::string>& arguments, const std::string& sign, double seconds,
+              const Action& action) const;
 
   std::filesystem::path folder_;
 };

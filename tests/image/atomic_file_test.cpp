@@ -98,6 +98,43 @@ TEST_F(AtomicFile, WhatCannotBeWrittenIsSaidBefore) {
   EXPECT_EQ(check_error(path("A.EXR"), ErrorKind::usage, {".exr"}), "no error");
 }
 
+TEST_F(AtomicFile, AFolderIsMadeForFilesAndTakenAwayIfThereAreNone) {
+  const auto fail = [] { throw Error(ErrorKind::io, "the disk is full"); };
+  EXPECT_THROW(write_folder(path("a/b/"), fail), Error);
+  EXPECT_EQ(file_count(), 0);
+  EXPECT_THROW(write_folder(path("a/b"),
+                            [&] {
+                              write_file(path("a/b/one"), "1");
+                              fail();
+                            }),
+               Error);
+  EXPECT_EQ(read_file(path("a/b/one")), "1");
+  fs::create_directory(path("empty"));
+  EXPECT_THROW(write_folder(path("empty"), fail), Error);
+  EXPECT_TRUE(fs::exists(path("empty"))) << "it was there before";
+  write_folder(path("c"), [&] { write_file(path("c/two"), "2"); });
+  EXPECT_EQ(read_file(path("c/two")), "2");
+}
+
+TEST_F(AtomicFile, AFolderThatCannotBeWrittenIntoIsSaidBefore) {
+  EXPECT_NO_THROW(check_folder_writable(folder_.string()));
+  EXPECT_NO_THROW(check_folder_writable(path("not/there/yet/")));
+  EXPECT_NO_THROW(check_folder_writable("maps"));
+  write_file(path("file"), "");
+  const auto complaint = [](const std::string& folder) -> std::string {
+    try {
+      check_folder_writable(folder);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::io);
+      return error.message();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(complaint(path("file")), "cannot write into '" + path("file") + "': it is no folder");
+  EXPECT_EQ(complaint(path("file/maps")),
+            "cannot write into '" + path("file/maps") + "': '" + path("file") + "' is no folder");
+}
+
 TEST_F(AtomicFile, ReadOnlyFolderIsSaidBefore) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
   fs::permissions(folder_, fs::perms::owner_read | fs::perms::owner_exec);
