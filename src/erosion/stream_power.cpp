@@ -214,8 +214,9 @@ TerrainResult stream_power(const Heightfield& input, const StreamPower& p,
                            const TerrainContext& context) {
   check_erosion(input, p);
   const Factors finest = factors_of(input, p, context);
-  const std::vector<StreamPowerLevel> levels = stream_power_levels(
-      input, static_cast<double>(p.years), random_bits(context.seed, 2), context.progress);
+  const std::vector<StreamPowerLevel> levels =
+      stream_power_levels(input, context.domain, static_cast<double>(p.years),
+                          random_bits(context.seed, 2), context.progress);
   std::vector<Grid<float>> rocks;  // made first: a noise is a stage of its own
   for (const StreamPowerLevel& level : levels)
     rocks.push_back(rock_variation(level.ground, p, context.seed, context.progress));

@@ -13,11 +13,13 @@
 // Water leaves over the open sides. A sample there that has no lower neighbour is an outlet: it
 // keeps its height, against which everything upstream settles.
 //
-// Coarse to fine: most years pass on a grid of 64 cells along the longer side whatever the
-// resolution, then the change of the ground is laid (bicubic) over the input on a grid twice as
-// fine, 0.4 times as many years pass there, and so on to the ground's own samples: so valleys lie
-// where they lie at every resolution, and whole ranges take seconds. Each grid takes a fixed number
-// of implicit steps (stream_power_solver.hpp): 100 the first, 16 each further, 32 the last.
+// Coarse to fine: most years pass on a grid of 64 cells along the longer side of the terrain
+// whatever the resolution, then the change of the ground is laid (bicubic) over the input on a grid
+// twice as fine, 0.4 times as many years pass there, and so on to the ground's own samples: so
+// valleys lie where they lie at every resolution, and whole ranges take seconds. Which way a river
+// turns hangs on little: so the coarser grids lie on the terrain, not on the window that is
+// computed, and see its ground smoothed. Each grid takes a fixed number of implicit steps
+// (stream_power_solver.hpp): 40 the first, 16 each further, 32 the last.
 //
 // Rock: erodibility and talus angle vary by `variation` as a fractal of the place with features of
 // `variation_size`, and with the map `hardness`.

@@ -5,7 +5,7 @@
 
 #include "base/progress.hpp"
 #include "erosion/stream_power_mesh.hpp"
-#include "terrain/heightfield.hpp"
+#include "terrain/operator.hpp"
 
 namespace wold {
 
@@ -17,9 +17,11 @@ struct StreamPowerLevel {
   int steps = 0;
 };
 
-/// From the coarsest, with 64 cells along the longer side, by halves to the input's own
-/// samples; of all years the first level takes most, each further 0.4 of the one before.
-std::vector<StreamPowerLevel> stream_power_levels(const Heightfield& input, double years,
+/// From the coarsest, with 64 cells along the longer side, by halves to the input's own samples; of
+/// all years the first level takes most, each further 0.4 of the one before. The coarser ones lie
+/// on `domain` where the input is that with a margin, else on the lattice that goes on beyond it.
+std::vector<StreamPowerLevel> stream_power_levels(const Heightfield& input,
+                                                  const TerrainDomain& domain, double years,
                                                   std::uint64_t seed, Progress& progress);
 
 /// A map of one grid over another that is at most a little coarser or any finer: bicubic, smoothed

@@ -35,14 +35,31 @@ void scale_into(std::span<float> out, float weight, const float* a) {
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = weight * a[i];
 }
 
-void blur_row(std::span<const float> in, std::span<float> out, const std::vector<float>& kernel) {
-  const std::size_t radius = kernel.size() - 1;
-  std::vector<float> padded(in.size() + 2 * radius, in.front());
-  std::copy(in.begin(), in.end(), padded.begin() + static_cast<std::ptrdiff_t>(radius));
-  std::fill(padded.end() - static_cast<std::ptrdiff_t>(radius), padded.end(), in.back());
+/// The number in [0, size) of the sample that stands for the k-th.
+int inside(int k, int size, Outside outside) {
+  if (k >= 0 && k < size) return k;
+  if (outside == Outside::clamp || size == 1) return std::clamp(k, 0, size - 1);
+  const int period = 2 * (size - 1);
+  const int t = ((k % period) + period) % period;
+  return std::min(t, period - t);
+}
+
+void blur_row(std::span<const float> in, std::span<float> out, const std::vector<float>& kernel,
+              Outside outside) {
+  const auto radius = static_cast<int>(kernel.size()) - 1;
+  const auto size = static_cast<int>(in.size());
+  std::vector<float> padded(in.size() + 2 * static_cast<std::size_t>(radius));
+  for (int k = 0; k < radius; ++k) {
+    padded[static_cast<std::size_t>(k)] =
+        in[static_cast<std::size_t>(inside(k - radius, size, outside))];
+    padded[static_cast<std::size_t>(radius + size + k)] =
+        in[static_cast<std::size_t>(inside(size + k, size, outside))];
+  }
+  std::copy(in.begin(), in.end(), padded.begin() + radius);
   const float* middle = padded.data() + radius;
   scale_into(out, kernel[0], middle);
-  for (std::size_t k = 1; k <= radius; ++k) add_scaled(out, kernel[k], middle - k, middle + k);
+  for (std::size_t k = 1; k < kernel.size(); ++k)
+    add_scaled(out, kernel[k], middle - k, middle + k);
 }
 
 }  // namespace
@@ -53,17 +70,17 @@ Description<Blur> describe(const Blur&) {
            "What is smaller than about this vanishes (standard deviation of the Gaussian).");
 }
 
-Grid<float> blurred(const Grid<float>& in, double deviation, Progress& progress) {
+Grid<float> blurred(const Grid<float>& in, double deviation, Progress& progress, Outside outside) {
   if (deviation < 0.05 || in.empty()) return in;
   const std::vector<float> kernel = gaussian_kernel(deviation);
   Grid<float> along_x(in.width(), in.height());
   parallel_for(0, in.height(), [&](int j) {
-    blur_row(in.row(j), along_x.row(j), kernel);
+    blur_row(in.row(j), along_x.row(j), kernel, outside);
     progress.check();
   });
   Grid<float> out(in.width(), in.height());
   parallel_for(0, in.height(), [&](int j) {
-    const auto row = [&](int k) { return along_x.row(std::clamp(k, 0, in.height() - 1)).data(); };
+    const auto row = [&](int k) { return along_x.row(inside(k, in.height(), outside)).data(); };
     scale_into(out.row(j), kernel[0], row(j));
     for (int k = 1; k < static_cast<int>(kernel.size()); ++k)
       add_scaled(out.row(j), kernel[static_cast<std::size_t>(k)], row(j - k), row(j + k));

@@ -17,7 +17,14 @@ Heightfield blur(const Heightfield& input, const Blur& parameters, const Terrain
 /// How far outside a place the input matters there, m.
 double reach_of(const Blur& parameters, double cell);
 
-/// A grid smoothed by a Gaussian of `deviation` samples; beyond its border the nearest value.
-Grid<float> blurred(const Grid<float>& in, double deviation, Progress& progress);
+/// What lies outside a grid.
+enum class Outside {
+  clamp,  ///< the nearest value on its border
+  mirror  ///< its mirror image, again and again
+};
+
+/// A grid smoothed by a Gaussian of `deviation` samples.
+Grid<float> blurred(const Grid<float>& in, double deviation, Progress& progress,
+                    Outside outside = Outside::clamp);
 
 }  // namespace wold

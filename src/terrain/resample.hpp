@@ -1,15 +1,10 @@
 #pragma once
 // A grid laid over a rectangle of the world and sampled elsewhere.
 
+#include "terrain/blur.hpp"
 #include "terrain/operator.hpp"
 
 namespace wold {
-
-/// What lies outside the rectangle.
-enum class Outside {
-  clamp,  ///< the nearest value on its border
-  mirror  ///< its mirror image, again and again
-};
 
 /// The grid's outermost samples lie on the border of `place`. Bicubic; where the samples of `like`
 /// are coarser by 2 or more, the grid is first smoothed to their spacing, so that nothing aliases
