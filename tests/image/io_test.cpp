@@ -2,14 +2,13 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <limits>
 
-#include "base/error.hpp"
+#include "../base/testing.hpp"
 #include "base/hash.hpp"
 #include "image/atomic_file.hpp"
 #include "image/color.hpp"
@@ -17,27 +16,10 @@
 namespace wold {
 namespace {
 
-namespace fs = std::filesystem;
+using testing_base::error_of;
+using testing_base::expect_contains;
 
-/// A folder of its own for each test.
-class ImageIo : public ::testing::Test {
- protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() /
-              ("wold-" + std::string(test->name()) + "-" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  int file_count() const {
-    return static_cast<int>(
-        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
-  }
-
-  fs::path folder_;
-};
+class ImageIo : public testing_base::FolderTest {};
 
 Image noise_picture(int width, int height, std::vector<std::string> channels) {
   Image image(width, height, std::move(channels));
@@ -52,22 +34,6 @@ float largest_difference(const Image& a, const Image& b) {
   for (std::size_t k = 0; k < std::min(a.pixels.size(), b.pixels.size()); ++k)
     largest = std::max(largest, std::abs(a.pixels[k] - b.pixels[k]));
   return largest;
-}
-
-template <class Action>
-std::string error_of(const Action& action, ErrorKind kind) {
-  try {
-    action();
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), kind) << e.what();
-    return e.what();
-  }
-  ADD_FAILURE() << "no error";
-  return {};
-}
-
-void expect_contains(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
 }
 
 TEST_F(ImageIo, ExrKeepsFloatsNamesAndMetadata) {
@@ -213,7 +179,7 @@ TEST_F(ImageIo, GridsAreTurnedOver) {
 TEST_F(ImageIo, ReadErrorsNameTheFileAndWhatWouldBeRight) {
   expect_contains(error_of([&] { read_picture(path("no.png")); }, ErrorKind::io),
                   "no.png': there is no such file");
-  expect_contains(error_of([&] { read_picture(folder_.string()); }, ErrorKind::io), "is a folder");
+  expect_contains(error_of([&] { read_picture(folder().string()); }, ErrorKind::io), "is a folder");
   write_file(path("text.png"), "These are words, not a picture.");
   const std::string message = error_of([&] { read_picture(path("text.png")); }, ErrorKind::input);
   expect_contains(message, "text.png' is not a picture");

@@ -1,14 +1,13 @@
 #include "mesh/editable.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <limits>
 
-#include "base/error.hpp"
+#include "../base/testing.hpp"
 #include "image/atomic_file.hpp"
 #include "mesh/gltf.hpp"
 #include "mesh/io.hpp"
@@ -18,23 +17,8 @@
 namespace wold {
 namespace {
 
-namespace fs = std::filesystem;
-
-template <class Action>
-std::string error_of(const Action& action, ErrorKind kind = ErrorKind::input) {
-  try {
-    action();
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), kind) << e.what();
-    return e.what();
-  }
-  ADD_FAILURE() << "no error";
-  return {};
-}
-
-void expect_contains(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
-}
+using testing_base::error_of;
+using testing_base::expect_contains;
 
 void expect_near(const DVec3& a, const DVec3& b, double tolerance = 1e-6) {
   EXPECT_LT(glm::length(a - b), tolerance)
@@ -246,12 +230,10 @@ TEST(EditableMesh, NodesOfGlbMoveAtTheirOwnPlaces) {
 }
 
 TEST(EditableMesh, GltfTextTakesItsBuffersIn) {
-  const fs::path folder =
-      fs::temp_directory_path() / ("wold-editable-" + std::to_string(::getpid()));
-  fs::create_directories(folder);
-  const std::string path = (folder / "a.gltf").string();
+  const testing_base::TemporaryFolder folder;
+  const std::string path = folder.file("a.gltf");
   const std::array<float, 9> xyz{1, 0, 0, 0, 1, 0, 0, 0, 1};
-  write_file((folder / "a.bin").string(), {reinterpret_cast<const char*>(xyz.data()), sizeof(xyz)});
+  write_file(folder.file("a.bin"), {reinterpret_cast<const char*>(xyz.data()), sizeof(xyz)});
   write_file(path, R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
     "nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
     "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
@@ -259,28 +241,24 @@ TEST(EditableMesh, GltfTextTakesItsBuffersIn) {
   EditableMesh mesh = EditableMesh::read(path);
   expect_near(mesh.positions()[2], {0, -1, 0});
   mesh.positions()[2].z = 5;
-  mesh.write((folder / "b.gltf").string());
-  fs::remove(folder / "a.bin");
-  expect_near(EditableMesh::read((folder / "b.gltf").string()).positions()[2], {0, -1, 5});
-  fs::remove_all(folder);
+  mesh.write(folder.file("b.gltf"));
+  std::filesystem::remove(folder.file("a.bin"));
+  expect_near(EditableMesh::read(folder.file("b.gltf")).positions()[2], {0, -1, 5});
 }
 
 TEST(EditableMesh, OtherFormatsGoThroughTriangles) {
-  const fs::path folder =
-      fs::temp_directory_path() / ("wold-editable2-" + std::to_string(::getpid()));
-  fs::create_directories(folder);
+  const testing_base::TemporaryFolder folder;
   EditableMesh mesh =
       EditableMesh::parse("v 0 5 0\nv 1 5 0\nv 0 5 -1\nusemtl a\nf 1 2 3\n", "a.obj", UpAxis::y);
   mesh.positions()[2].z = 6;
   for (const char* name : {"a.ply", "a.glb"}) {
-    mesh.write((folder / name).string());
-    const TriangleMesh read = read_mesh((folder / name).string());
+    mesh.write(folder.file(name));
+    const TriangleMesh read = read_mesh(folder.file(name));
     EXPECT_EQ(read.positions.at(2), Vec3(0, 1, 6)) << name;
     EXPECT_EQ(read.parts.at(0).material, "a");
   }
-  expect_contains(error_of([&] { mesh.write((folder / "a.stl").string()); }, ErrorKind::usage),
+  expect_contains(error_of([&] { mesh.write(folder.file("a.stl")); }, ErrorKind::usage),
                   "known are .obj");
-  fs::remove_all(folder);
 }
 
 TEST(EditableMesh, ErrorsAreClear) {

@@ -1,12 +1,11 @@
 #include "mesh/io.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
 
-#include "base/error.hpp"
+#include "../base/testing.hpp"
 #include "image/atomic_file.hpp"
 #include "mesh/gltf.hpp"
 #include "mesh/obj.hpp"
@@ -15,21 +14,10 @@
 namespace wold {
 namespace {
 
-namespace fs = std::filesystem;
+using testing_base::error_of;
+using testing_base::expect_contains;
 
-class MeshIo : public ::testing::Test {
- protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() /
-              ("wold-mesh-" + std::string(test->name()) + "-" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-  fs::path folder_;
-};
+class MeshIo : public testing_base::FolderTest {};
 
 /// Two materials, awkward numbers, every vertex used in order.
 TriangleMesh sample_mesh(bool normals, bool uvs) {
@@ -53,22 +41,6 @@ void expect_same(const TriangleMesh& a, const TriangleMesh& b) {
     EXPECT_EQ(a.parts[k].first_triangle, b.parts[k].first_triangle);
     EXPECT_EQ(a.parts[k].triangle_count, b.parts[k].triangle_count);
   }
-}
-
-template <class Action>
-std::string error_of(const Action& action, ErrorKind kind = ErrorKind::input) {
-  try {
-    action();
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), kind) << e.what();
-    return e.what();
-  }
-  ADD_FAILURE() << "no error";
-  return {};
-}
-
-void expect_contains(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
 }
 
 TEST_F(MeshIo, EveryFormatKeepsEverything) {
