@@ -8,11 +8,7 @@
 namespace wold {
 namespace {
 
-using testing_erosion::ground;
-using testing_erosion::rough;
-using testing_terrain::error_text;
-using testing_terrain::field_of;
-using testing_terrain::run;
+using namespace testing_erosion;
 
 struct Routed {
   explicit Routed(const Grid<float>& height, double cell = 1)
@@ -303,16 +299,7 @@ TEST(Drainage, CanLeaveTheGround) {
 TEST(Drainage, IsTheSameForAnyNumberOfThreads) {
   const Heightfield field = rough(190, 300, 5);
   for (const auto flow : {FlowMethod::d8, FlowMethod::d_infinity, FlowMethod::multiple}) {
-    const auto with_threads = [&](int threads) {
-      const ThreadLimit limit(threads);
-      return run(drainage, field, Drainage{.flow = flow});
-    };
-    const TerrainResult one = with_threads(1);
-    for (const int threads : {2, 4}) {
-      const TerrainResult other = with_threads(threads);
-      EXPECT_EQ(other.field.height, one.field.height);
-      EXPECT_EQ(other.maps, one.maps);
-    }
+    expect_same_for_any_threads([&] { return run(drainage, field, Drainage{.flow = flow}); });
   }
 }
 
@@ -327,11 +314,7 @@ TEST(Drainage, CancelsAndNamesWrongParameters) {
   const Heightfield field = rough(60, 50, 5);
   EXPECT_NE(error_text([&] { run(drainage, field, Drainage{.exponent = -1}); }).find("exponent"),
             std::string::npos);
-  Progress progress;
-  progress.cancel();
-  const std::map<std::string, TerrainResult> none;
-  const TerrainContext context{1, {field.origin, field.size()}, {}, none, progress};
-  error_text([&] { drainage(field, {}, context); }, ErrorKind::cancelled);
+  expect_stays_cancelled(drainage, field, Drainage{});
 }
 
 }  // namespace

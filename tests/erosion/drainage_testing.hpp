@@ -1,16 +1,12 @@
 #pragma once
 // What the tests of drainage and stream power share.
 
-#include <gtest/gtest.h>
-
 #include <initializer_list>
 #include <vector>
 
-#include "../terrain/testing.hpp"
-#include "base/parallel.hpp"
 #include "erosion/drainage_depressions.hpp"
 #include "noise/fractal.hpp"
-#include "terrain/heightfield.hpp"
+#include "testing.hpp"
 
 namespace wold::testing_erosion {
 

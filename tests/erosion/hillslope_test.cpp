@@ -5,10 +5,7 @@
 namespace wold {
 namespace {
 
-using testing_erosion::rough;
-using testing_terrain::error_text;
-using testing_terrain::field_of;
-using testing_terrain::run;
+using namespace testing_erosion;
 
 /// A Gaussian of variance `variance` m² that holds 1e6 m³, on a plane at 100 m.
 double hill(DVec2 p, double variance) {
@@ -58,7 +55,7 @@ TEST(Hillslope, APlaneStays) {
   const TerrainResult out =
       run(hillslope, plane,
           Hillslope{.years = 1e5F, .critical_slope = 45, .border = HillslopeBorder::open});
-  EXPECT_LT(testing_terrain::largest_difference(out.field.height, plane.height), 1e-3F);
+  EXPECT_LT(largest_difference(out.field.height, plane.height), 1e-3F);
 }
 
 // The hill is up to 0.59 steep: 31°.
@@ -78,24 +75,13 @@ TEST(Hillslope, DoesNotDependOnResolution) {
                Hillslope{.years = 1e5F, .diffusivity = 0.01F})
         .field.height;
   };
-  const Grid<float> coarse = out(16, 51);
-  const Grid<float> fine = out(8, 101);
-  double sum = 0;
-  for (int j = 0; j < 51; ++j)
-    for (int i = 0; i < 51; ++i)
-      sum += std::pow(static_cast<double>(coarse(i, j) - fine(2 * i, 2 * j)), 2);
-  EXPECT_LT(std::sqrt(sum / (51 * 51)), 0.005 * (hill({0, 0}, 5000) - 100));
+  EXPECT_LT(rms_difference(out(16, 51), out(8, 101)), 0.005 * (hill({0, 0}, 5000) - 100));
 }
 
 TEST(Hillslope, IsTheSameForAnyNumberOfThreads) {
   for (const float critical : {0.0F, 40.0F}) {
-    const auto with_threads = [&](int threads) {
-      const ThreadLimit limit(threads);
-      return run(hillslope, rough(130, 90, 10), Hillslope{.critical_slope = critical}).field.height;
-    };
-    const Grid<float> one = with_threads(1);
-    EXPECT_EQ(with_threads(2), one);
-    EXPECT_EQ(with_threads(4), one);
+    expect_same_for_any_threads(
+        [&] { return run(hillslope, rough(130, 90, 10), Hillslope{.critical_slope = critical}); });
   }
 }
 
@@ -110,11 +96,7 @@ TEST(Hillslope, SmallGroundCancelAndErrors) {
   EXPECT_NE(
       error_text([&] { run(hillslope, field, Hillslope{.diffusivity = -1}); }).find("diffusivity"),
       std::string::npos);
-  Progress progress;
-  progress.cancel();
-  const std::map<std::string, TerrainResult> none;
-  const TerrainContext context{1, {field.origin, field.size()}, {}, none, progress};
-  error_text([&] { hillslope(field, {}, context); }, ErrorKind::cancelled);
+  expect_stays_cancelled(hillslope, field, Hillslope{});
 }
 
 }  // namespace

@@ -2,37 +2,19 @@
 
 #include <cmath>
 
-#include "../terrain/testing.hpp"
-#include "base/parallel.hpp"
-#include "erosion/ground.hpp"
+#include "testing.hpp"
 
 namespace wold {
 namespace {
 
-using testing_terrain::error_text;
-using testing_terrain::field_of;
-using testing_terrain::run;
-using testing_terrain::Steps;
-
-Heightfield mountains(int resolution) {
-  Steps steps;
-  steps.add("ridged", {});
-  return steps.evaluate({.size = 2000, .resolution = resolution}).field;
-}
-
-void expect_balanced(const TerrainResult& result) {
-  ASSERT_EQ(result.balances.size(), 1U);
-  EXPECT_EQ(result.balances[0].quantity, "snow");
-  EXPECT_GT(result.balances[0].moved, 0);
-  EXPECT_LT(std::abs(result.balances[0].relative_error()), 1e-6);
-}
+using namespace testing_erosion;
 
 TEST(Snow, LiesAsDeepAsItFallsOnGentleGround) {
   const Heightfield ground = field_of(20, 30, 10, {}, [](DVec2 p) { return 1000 + 0.3 * p.x; });
   const TerrainResult result = run(snow, ground, Snow{});
   for (const float depth : result.maps.at("snow").values()) EXPECT_NEAR(depth, 3, 1e-4);
   EXPECT_NEAR(result.field.height(7, 8), ground.height(7, 8) + 3, 1e-3);
-  expect_balanced(result);
+  expect_balanced(result, {"snow"});
 }
 
 TEST(Snow, FallsAboveTheSnowLine) {
@@ -53,7 +35,7 @@ TEST(Snow, SlidesOffCliffsAndLiesAtTheirFeet) {
   EXPECT_LT(depth(50, 4), 0.2F);
   EXPECT_GT(depth(40, 4), 10);
   EXPECT_NEAR(depth(5, 4), 3, 1e-3);
-  expect_balanced(result);
+  expect_balanced(result, {"snow"});
   for (std::size_t k = 0; k < depth.size(); ++k)
     EXPECT_GE(result.field.height.values()[k], ground.height.values()[k]);
 }
@@ -65,7 +47,7 @@ TEST(Snow, RestsOnMountains) {
   for (const int passes : {1, 1000}) {
     parameters.max_passes = passes;
     const TerrainResult result = run(snow, ground, parameters);
-    expect_balanced(result);
+    expect_balanced(result, {"snow"});
     const Grid<float>& depth = result.maps.at("snow");
     const Grid<float>& height = result.field.height;
     const auto most = static_cast<float>(std::tan(radians(35.51)) * ground.cell);
@@ -92,15 +74,11 @@ TEST(Snow, DriftsIntoTheLee) {
 
 TEST(Snow, SameBitsForAnyNumberOfThreads) {
   const Heightfield ground = mountains(150);
-  const TerrainResult first = [&] {
-    const ThreadLimit limit(1);
-    return run(snow, ground, Snow{});
-  }();
-  expect_balanced(first);
-  const ThreadLimit limit(4);
-  const TerrainResult again = run(snow, ground, Snow{});
-  EXPECT_EQ(first.field.height, again.field.height);
-  EXPECT_EQ(first.maps, again.maps);
+  expect_same_for_any_threads([&] { return run(snow, ground, Snow{}); });
+}
+
+TEST(Snow, CanBeCancelled) {
+  expect_stays_cancelled(snow, mountains(33), Snow{});
 }
 
 TEST(Snow, ErrorsNameTheParameter) {

@@ -3,19 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../terrain/testing.hpp"
 #include "base/hash.hpp"
-#include "base/parallel.hpp"
 #include "erosion/ground.hpp"
 #include "terrain/analysis.hpp"
+#include "testing.hpp"
 
 namespace wold {
 namespace {
 
-using testing_terrain::error_text;
-using testing_terrain::field_of;
-using testing_terrain::run;
-using testing_terrain::Steps;
+using namespace testing_erosion;
 
 Thermal sand() {
   Thermal parameters;
@@ -29,12 +25,6 @@ Heightfield column(int samples, double cell, double radius, double cone_radius) 
   const double height = std::tan(radians(33.0)) * std::pow(cone_radius, 3) / 3 / (radius * radius);
   return field_of(samples, samples, cell, {},
                   [&](DVec2 p) { return glm::length(p - DVec2(middle)) < radius ? height : 0; });
-}
-
-Heightfield mountains(int resolution, double size = 2000) {
-  Steps steps;
-  steps.add("ridged", {});
-  return steps.evaluate({.size = size, .resolution = resolution}).field;
 }
 
 /// The steepest slope down to any of eight neighbours from a sample that holds more loose material
@@ -71,12 +61,6 @@ double foot(const Heightfield& field, double direction) {
   return r;
 }
 
-void expect_balanced(const TerrainResult& result) {
-  ASSERT_EQ(result.balances.size(), 1U);
-  EXPECT_GT(result.balances[0].moved, 0);
-  EXPECT_LT(std::abs(result.balances[0].relative_error()), 1e-6);
-}
-
 TEST(Thermal, SandFallsToARoundConeAtItsAngle) {
   for (const bool ladder : {false, true}) {
     Thermal parameters = sand();
@@ -88,7 +72,7 @@ TEST(Thermal, SandFallsToARoundConeAtItsAngle) {
       EXPECT_NEAR(foot(result.field, direction), 160, ladder ? 16 : 4) << direction;
     }
     EXPECT_LT(steepest_step(result.field.height, 4), 33.5);
-    expect_balanced(result);
+    expect_balanced(result, {"ground"});
   }
 }
 
@@ -129,7 +113,7 @@ TEST(Thermal, NoSlopeStaysSteeperThanTheTolerance) {
     const Grid<float> slope = slope_map(result.field);
     for (int j = 1; j < slope.height() - 1; ++j)
       for (int i = 1; i < slope.width() - 1; ++i) ASSERT_LT(slope(i, j), angle + 0.6F);
-    expect_balanced(result);
+    expect_balanced(result, {"ground"});
   }
 }
 
@@ -139,7 +123,7 @@ TEST(Thermal, ScreeRestsOnMountains) {
     const TerrainResult result = run(thermal, ground, Thermal{});
     EXPECT_LT(steepest_loose(result.field, result.maps.at("sediment")), 33.51) << resolution;
     EXPECT_GT(steepest_step(result.field.height, ground.cell), 45);
-    expect_balanced(result);
+    expect_balanced(result, {"ground"});
   }
 }
 
@@ -159,7 +143,7 @@ TEST(Thermal, LooseMaterialRestsAfterAnyNumberOfPasses) {
       } else {
         EXPECT_LT(steepest_step(result.field.height, ground.cell), 25.51);
       }
-      expect_balanced(result);
+      expect_balanced(result, {"ground"});
     }
 }
 
@@ -170,7 +154,7 @@ TEST(Thermal, CliffsBreakAndScreeLiesAtTheirFeet) {
   const TerrainResult result = run(thermal, step, parameters);
   const Grid<float>& wear = result.maps.at("wear");
   const Grid<float>& scree = result.maps.at("sediment");
-  expect_balanced(result);
+  expect_balanced(result, {"ground"});
   // What broke off lies elsewhere.
   EXPECT_GT(volume(wear, 2), 1000);
   EXPECT_NEAR(volume(wear, 2), volume(scree, 2), 1e-3 * volume(wear, 2));
@@ -191,7 +175,7 @@ TEST(Thermal, OnlyTheLooseMovesWhereRockNeverBreaks) {
   EXPECT_EQ(run(thermal, ground, parameters).field.height, ground.height);
   parameters.loose_depth = 2;
   const TerrainResult result = run(thermal, ground, parameters);
-  expect_balanced(result);
+  expect_balanced(result, {"ground"});
   for (const float w : result.maps.at("wear").values()) EXPECT_EQ(w, 0);
   for (std::size_t k = 0; k < ground.height.size(); ++k)
     EXPECT_GE(result.field.height.values()[k], ground.height.values()[k] - 2.001F);
@@ -204,13 +188,10 @@ TEST(Thermal, HardGroundStays) {
     for (int i = 0; i < 65; ++i) hard(i, j) = i < 30 ? 1.0F : 0.0F;
   const std::map<std::string, Grid<float>> maps{{"hard", hard}};
   for (const bool inverted : {false, true}) {
-    Progress progress;
-    const std::map<std::string, TerrainResult> none;
-    const TerrainContext context{1, {ground.origin, ground.size()}, {}, none, progress, &maps};
     Thermal parameters = sand();
     parameters.hardness = "hard";
     parameters.hardness_invert = inverted;
-    const TerrainResult result = thermal(ground, parameters, context);
+    const TerrainResult result = run_with(thermal, ground, parameters, maps);
     float soft = 0;
     for (int j = 0; j < 65; ++j)
       for (int i = 0; i < 65; ++i) {
@@ -247,27 +228,15 @@ TEST(Thermal, ResolutionsAgree) {
   const Heightfield coarse = run(thermal, mountains(65), Thermal{}).field;
   const Heightfield fine = run(thermal, mountains(129), Thermal{}).field;
   const HeightStatistics range = height_statistics(coarse);
-  double sum = 0;
-  for (int j = 0; j < 65; ++j)
-    for (int i = 0; i < 65; ++i)
-      sum += std::pow(static_cast<double>(coarse.height(i, j)) - fine.height(2 * i, 2 * j), 2);
-  EXPECT_LT(std::sqrt(sum / (65 * 65)), 0.02 * static_cast<double>(range.max - range.min));
+  EXPECT_LT(rms_difference(coarse.height, fine.height),
+            0.02 * static_cast<double>(range.max - range.min));
 }
 
 TEST(Thermal, SameBitsForAnyNumberOfThreads) {
   const Heightfield ground = mountains(150);
   Thermal parameters;
   parameters.max_passes = 60;
-  const TerrainResult first = [&] {
-    const ThreadLimit limit(1);
-    return run(thermal, ground, parameters);
-  }();
-  for (const int threads : {2, 4}) {
-    const ThreadLimit limit(threads);
-    const TerrainResult again = run(thermal, ground, parameters);
-    EXPECT_EQ(first.field.height, again.field.height);
-    EXPECT_EQ(first.maps, again.maps);
-  }
+  expect_same_for_any_threads([&] { return run(thermal, ground, parameters); });
 }
 
 TEST(Thermal, AnyShapeWorks) {
@@ -289,11 +258,7 @@ TEST(Thermal, AnyShapeWorks) {
 
 TEST(Thermal, CanBeCancelled) {
   const Heightfield ground = mountains(97);
-  Progress progress;
-  progress.cancel();
-  const std::map<std::string, TerrainResult> none;
-  const TerrainContext context{1, {ground.origin, ground.size()}, {}, none, progress};
-  error_text([&] { thermal(ground, Thermal{}, context); }, ErrorKind::cancelled);
+  expect_stays_cancelled(thermal, ground, Thermal{});
 }
 
 TEST(Thermal, ErrorsNameTheParameter) {

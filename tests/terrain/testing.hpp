@@ -1,13 +1,11 @@
 #pragma once
 // What the tests of terrain share.
 
-#include <gtest/gtest.h>
-
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <string>
 
+#include "../base/testing.hpp"
 #include "terrain/operators.hpp"
 #include "terrain/steps.hpp"
 
@@ -40,34 +38,13 @@ inline float largest_difference(const Grid<float>& a, const Grid<float>& b) {
   return largest;
 }
 
+/// What the function complains of.
 template <class Function>
 std::string error_text(const Function& function, ErrorKind kind = ErrorKind::input) {
-  try {
-    function();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), kind);
-    return error.what();
-  }
-  return "no error";
+  return testing_base::error_of(function, kind);
 }
 
-/// A folder of its own, removed at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "wold_terrain_XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-
-  const std::filesystem::path& path() const { return path_; }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
+using testing_base::TemporaryFolder;
 
 /// A list of steps being written.
 class Steps {
