@@ -2,35 +2,22 @@
 
 #include <algorithm>
 
-#include "../terrain/testing.hpp"
 #include "base/hash.hpp"
-#include "base/parallel.hpp"
 #include "image/io.hpp"
 #include "terrain/analysis.hpp"
 #include "terrain/fbm.hpp"
 #include "terrain/resample.hpp"
+#include "testing.hpp"
 
 namespace wold {
 namespace {
 
-using testing_terrain::error_text;
-using testing_terrain::field_of;
-using testing_terrain::run;
+using namespace testing_erosion;
 
 /// Hills over 1 km.
 Heightfield hills(int samples, std::uint64_t seed = 5) {
   const Heightfield plane{Grid<float>(samples, samples), DVec2(-500), 1000.0 / (samples - 1)};
   return run(fbm, plane, FbmGround{.shape = {.height = 250, .feature_size = 600}}, seed);
-}
-
-/// With maps at hand by name.
-TerrainResult run_with(const Heightfield& input, const Droplets& parameters,
-                       const std::map<std::string, Grid<float>>& maps,
-                       const std::filesystem::path& folder = {}) {
-  Progress progress;
-  const std::map<std::string, TerrainResult> none;
-  const TerrainContext context{1, {input.origin, input.size()}, folder, none, progress, &maps};
-  return droplets(input, parameters, context);
 }
 
 /// Red in the west, blue in the east.
@@ -41,17 +28,9 @@ void write_halves(const std::string& path) {
   write_exr(path, image_of(picture));
 }
 
-void expect_balanced(const TerrainResult& result) {
-  ASSERT_EQ(result.balances.size(), 1U);
-  const Balance& ground = result.balances.front();
-  EXPECT_EQ(ground.quantity, "ground");
-  EXPECT_GT(ground.moved, 0);
-  EXPECT_LE(std::abs(ground.relative_error()), 1e-6);
-}
-
 TEST(Droplets, KeepsTheMass) {
   const TerrainResult result = run(droplets, hills(129), Droplets{});
-  expect_balanced(result);
+  expect_balanced(result, {"ground"});
   EXPECT_GT(result.balances.front().removed, 0);
 }
 
@@ -59,14 +38,14 @@ TEST(Droplets, ClosedBorderKeepsEverythingInside) {
   Droplets p;
   p.closed_border = true;
   const TerrainResult result = run(droplets, hills(129), p);
-  expect_balanced(result);
+  expect_balanced(result, {"ground"});
   EXPECT_EQ(result.balances.front().removed, 0);
 }
 
 TEST(Droplets, MomentumKeepsTheMassToo) {
   Droplets p;
   p.variant = DropletVariant::momentum;
-  expect_balanced(run(droplets, hills(129), p));
+  expect_balanced(run(droplets, hills(129), p), {"ground"});
 }
 
 TEST(Droplets, WearLessSedimentIsTheChange) {
@@ -98,20 +77,11 @@ TEST(Droplets, SameBitsForAnyThreads) {
   const std::map<std::string, Grid<float>> maps{{"hard", Grid<float>(193, 193, 0.3F)}};
   Droplets p;
   p.rain = 0.06F;
-  const testing_terrain::TemporaryFolder folder;
+  const TemporaryFolder folder;
   write_halves(folder.file("halves.exr"));
   p.color = {"halves.exr"};
   p.hardness = "hard";
-  std::vector<TerrainResult> results;
-  for (const int threads : {1, 2, 4, 4}) {
-    const ThreadLimit limit(threads);
-    results.push_back(run_with(input, p, maps, folder.path()));
-  }
-  for (const TerrainResult& other : results) {
-    EXPECT_EQ(other.field.height, results.front().field.height);
-    for (const auto& [name, map] : other.maps)
-      EXPECT_EQ(map, results.front().maps.at(name)) << name;
-  }
+  expect_same_for_any_threads([&] { return run_with(droplets, input, p, maps, folder.path()); });
 }
 
 TEST(Droplets, OtherSeedsRainElsewhere) {
@@ -183,11 +153,12 @@ TEST(Droplets, WhiteIsHard) {
                                                 {"black", Grid<float>(65, 65, 0)}};
   Droplets p;
   p.hardness = "white";
-  EXPECT_EQ(run_with(input, p, maps).field.height, input.height);
+  EXPECT_EQ(run_with(droplets, input, p, maps).field.height, input.height);
   p.hardness = "black";
-  EXPECT_EQ(run_with(input, p, maps).field.height, run(droplets, input, Droplets{}).field.height);
+  EXPECT_EQ(run_with(droplets, input, p, maps).field.height,
+            run(droplets, input, Droplets{}).field.height);
   p.hardness_invert = true;
-  EXPECT_EQ(run_with(input, p, maps).field.height, input.height);
+  EXPECT_EQ(run_with(droplets, input, p, maps).field.height, input.height);
 }
 
 TEST(Droplets, HardGroundIsNotLowered) {
@@ -197,8 +168,8 @@ TEST(Droplets, HardGroundIsNotLowered) {
     for (int i = 0; i < 129; ++i) half(i, j) = i < 64 ? 1.0F : 0.0F;
   Droplets p;
   p.hardness = "half";
-  const TerrainResult result = run_with(input, p, {{"half", half}});
-  expect_balanced(result);
+  const TerrainResult result = run_with(droplets, input, p, {{"half", half}});
+  expect_balanced(result, {"ground"});
   for (int j = 0; j < 129; ++j)
     for (int i = 0; i < 64; ++i)
       ASSERT_GE(result.field.height(i, j), input.height(i, j)) << i << ", " << j;
@@ -208,7 +179,8 @@ TEST(Droplets, ItRainsWhereTheMapIsWhite) {
   const Heightfield input = hills(65);
   Droplets p;
   p.rain_map = "none";
-  EXPECT_EQ(run_with(input, p, {{"none", Grid<float>(65, 65, 0)}}).field.height, input.height);
+  EXPECT_EQ(run_with(droplets, input, p, {{"none", Grid<float>(65, 65, 0)}}).field.height,
+            input.height);
   p = {};
   p.rain = 0;
   EXPECT_EQ(run(droplets, input, p).field.height, input.height);
@@ -232,7 +204,7 @@ TEST(Droplets, AnyShapeWorks) {
 }
 
 TEST(Droplets, ColorGoesWithTheGround) {
-  const testing_terrain::TemporaryFolder folder;
+  const TemporaryFolder folder;
   write_halves(folder.file("halves.exr"));
   const Heightfield input = field_of(65, 65, 10, DVec2(0), [](DVec2 p) {
     return 300 * std::exp(-p.x / 200) + 3 * std::sin(p.y * 0.05);
@@ -240,7 +212,7 @@ TEST(Droplets, ColorGoesWithTheGround) {
   Droplets p;
   p.color = {"halves.exr"};
   p.color_depth = 0.05F;
-  const TerrainResult result = run_with(input, p, {}, folder.path());
+  const TerrainResult result = run_with(droplets, input, p, {}, folder.path());
   const Grid<float>& red = result.maps.at("color.red");
   const Grid<float>& green = result.maps.at("color.green");
   const Grid<float>& blue = result.maps.at("color.blue");
@@ -270,13 +242,7 @@ TEST(Droplets, FlowIsWhereDropsGather) {
 }
 
 TEST(Droplets, CanBeCancelled) {
-  Progress progress;
-  progress.cancel();
-  const Heightfield input = hills(129);
-  const std::map<std::string, TerrainResult> none;
-  const TerrainContext context{1, {input.origin, input.size()}, {}, none, progress};
-  EXPECT_NE(error_text([&] { droplets(input, Droplets{}, context); }, ErrorKind::cancelled),
-            "no error");
+  expect_stays_cancelled(droplets, hills(129), Droplets{});
 }
 
 TEST(Droplets, ErrorsNameWhatIsWrong) {
@@ -289,7 +255,7 @@ TEST(Droplets, ErrorsNameWhatIsWrong) {
   EXPECT_NE(error_text([&] { run(droplets, input, p); }).find("rain"), std::string::npos);
   p = {};
   p.hardness = "nothing";
-  EXPECT_NE(error_text([&] { run_with(input, p, {}); }, ErrorKind::io).find("nothing"),
+  EXPECT_NE(error_text([&] { run_with(droplets, input, p, {}); }, ErrorKind::io).find("nothing"),
             std::string::npos);
   input.height(3, 4) = std::numeric_limits<float>::infinity();
   EXPECT_NE(error_text([&] { run(droplets, input, Droplets{}); }).find("(3, 4)"),

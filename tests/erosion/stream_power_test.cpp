@@ -9,12 +9,7 @@
 namespace wold {
 namespace {
 
-using testing_erosion::ground;
-using testing_erosion::rough;
-using testing_terrain::error_text;
-using testing_terrain::field_of;
-using testing_terrain::largest_difference;
-using testing_terrain::run;
+using namespace testing_erosion;
 
 std::size_t at(int k) {
   return static_cast<std::size_t>(k);
@@ -187,12 +182,8 @@ TEST(StreamPower, DoesNotDependOnResolutionOrMargin) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const Grid<float> coarse = range_within_margin(256, 2, seed);
     const Grid<float> fine = range_within_margin(512, 9, seed);
-    double sum = 0;
-    for (int j = 0; j <= 256; ++j)
-      for (int i = 0; i <= 256; ++i)
-        sum += std::pow(static_cast<double>(coarse(i, j) - fine(2 * i, 2 * j)), 2);
     const auto [low, high] = std::minmax_element(coarse.values().begin(), coarse.values().end());
-    differences.push_back(std::sqrt(sum / (257 * 257)) / static_cast<double>(*high - *low));
+    differences.push_back(rms_difference(coarse, fine) / static_cast<double>(*high - *low));
   }
   std::sort(differences.begin(), differences.end());
   EXPECT_LT(differences[1], 0.02);
@@ -225,16 +216,8 @@ TEST(StreamPowerLevels, LieWhereTheyLieWhateverTheResolution) {
 }
 
 TEST(StreamPower, IsTheSameForAnyNumberOfThreads) {
-  const auto with_threads = [&](int threads) {
-    const ThreadLimit limit(threads);
-    return run(stream_power, rough(200, 300, 10), StreamPower{.years = 1e5F});
-  };
-  const TerrainResult one = with_threads(1);
-  for (const int threads : {1, 2, 4}) {
-    const TerrainResult other = with_threads(threads);
-    EXPECT_EQ(other.field.height, one.field.height);
-    EXPECT_EQ(other.maps, one.maps);
-  }
+  expect_same_for_any_threads(
+      [] { return run(stream_power, rough(200, 300, 10), StreamPower{.years = 1e5F}); });
 }
 
 TEST(StreamPower, ClosedSidesHoldNoOutlet) {
@@ -252,19 +235,19 @@ TEST(StreamPower, ClosedSidesHoldNoOutlet) {
 
 TEST(StreamPower, HardRockDoesNotErodeByStreams) {
   const Heightfield input = small_range(65, 60);
-  const std::map<std::string, TerrainResult> none;
   const std::map<std::string, Grid<float>> maps{{"rock", Grid<float>(65, 65, 1)},
                                                 {"dry", Grid<float>(65, 65, 0)}};
-  Progress progress;
-  const TerrainContext context{1, {input.origin, input.size()}, {}, none, progress, &maps};
+  const auto removed = [&](const StreamPower& p) {
+    return run_with(stream_power, input, p, maps).balances.at(0).removed;
+  };
   StreamPower p{.years = 1e5F, .diffusivity = 0, .talus = 85};
   p.hardness = "rock";
-  const double hard = stream_power(input, p, context).balances.at(0).removed;
+  const double hard = removed(p);
   p.hardness = "";
   p.rain = "dry";
-  const double dry = stream_power(input, p, context).balances.at(0).removed;
+  const double dry = removed(p);
   p.rain = "";
-  const double soft = stream_power(input, p, context).balances.at(0).removed;
+  const double soft = removed(p);
   EXPECT_LT(hard, 0.1 * soft);
   EXPECT_LT(dry, 0.1 * soft);
 }
@@ -277,11 +260,7 @@ TEST(StreamPower, SmallGroundCancelAndErrors) {
   const Heightfield field = rough(20, 20, 5);
   EXPECT_NE(error_text([&] { run(stream_power, field, StreamPower{.talus = 90}); }).find("talus"),
             std::string::npos);
-  Progress progress;
-  progress.cancel();
-  const std::map<std::string, TerrainResult> none;
-  const TerrainContext context{1, {field.origin, field.size()}, {}, none, progress};
-  error_text([&] { stream_power(field, {}, context); }, ErrorKind::cancelled);
+  expect_stays_cancelled(stream_power, field, StreamPower{});
 }
 
 }  // namespace
