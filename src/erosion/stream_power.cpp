@@ -48,8 +48,9 @@ Grid<float> rock_variation(const Heightfield& shape, const StreamPower& p, std::
   return rock;
 }
 
-StreamPowerGround ground_of(const Heightfield& shape, const Factors& factors,
-                            const Grid<float>& rock, const StreamPower& p, Progress& progress) {
+StreamPowerGround ground_of(const Heightfield& shape, const Factors& factors, const StreamPower& p,
+                            std::uint64_t seed, Progress& progress) {
+  const Grid<float> rock = rock_variation(shape, p, seed, progress);
   const auto map = [&](const auto& function) { return map_grid<float>(shape, progress, function); };
   StreamPowerGround ground;
   ground.uplift = map([&](int i, int j) { return 1e-3F * p.uplift * factors.uplift(i, j); });
@@ -110,8 +111,7 @@ struct Outcome {
 };
 
 Outcome run_levels(const std::vector<StreamPowerLevel>& levels, const std::vector<Factors>& factors,
-                   const std::vector<Grid<float>>& rocks, const StreamPower& p,
-                   const TerrainContext& context) {
+                   const StreamPower& p, const TerrainContext& context) {
   const StreamPowerLaw law{.area_exponent = static_cast<double>(p.area_exponent),
                            .slope_exponent = static_cast<double>(p.slope_exponent),
                            .deposition = static_cast<double>(p.deposition),
@@ -129,8 +129,8 @@ Outcome run_levels(const std::vector<StreamPowerLevel>& levels, const std::vecto
     };
     if (l > 0) add_to(out.height, laid_over(change));
     StreamPowerSolver solver(level.ground.cell, law,
-                             ground_of(level.ground, factors[l], rocks[l], p, progress), level.mesh,
-                             random_bits(context.seed, 3, l), progress);
+                             ground_of(level.ground, factors[l], p, context.seed, progress),
+                             level.mesh, random_bits(context.seed, 3, l), progress);
     if (!out.sediment.empty()) solver.sediment() = laid_over(out.sediment);
     for (int s = 0; s < level.steps; ++s) solver.step(out.height, level.years / level.steps);
     change = difference(out.height, ground);
@@ -217,18 +217,14 @@ TerrainResult stream_power(const Heightfield& input, const StreamPower& p,
   const std::vector<StreamPowerLevel> levels =
       stream_power_levels(input, context.domain, static_cast<double>(p.years),
                           random_bits(context.seed, 2), context.progress);
-  std::vector<Grid<float>> rocks;  // made first: a noise is a stage of its own
-  for (const StreamPowerLevel& level : levels)
-    rocks.push_back(rock_variation(level.ground, p, context.seed, context.progress));
-  context.progress.begin("stream power", work_of(levels), "cell steps");
+  const ProgressStage stage(context.progress, "stream power", work_of(levels), "cell steps");
   const std::vector<Factors> factors = factors_of_levels(levels, finest, context.progress);
-  Outcome out = run_levels(levels, factors, rocks, p, context);
+  Outcome out = run_levels(levels, factors, p, context);
   TerrainResult result;
   result.field = {std::move(out.height), input.origin, input.cell};
   result.maps["area"] = std::move(out.area);
   result.maps["sediment"] = std::move(out.sediment);
   add_maps(result, input, finest.uplift, p, context.progress);
-  context.progress.end();
   return result;
 }
 

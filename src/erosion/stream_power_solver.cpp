@@ -128,12 +128,13 @@ void StreamPowerSolver::erode(Grid<float>& height, double years, const AreaPower
   const float* talus = ground_.talus.values().data();
   const float* cosine = cosine_.values().data();
   const std::uint8_t* direction = direction_.values().data();
-  if (law_.deposition > 0) load_ = Grid<double>(height.width(), height.height(), 0);
+  if (law_.deposition > 0 && load_.empty()) load_ = Grid<double>(height.width(), height.height());
   double* load = load_.empty() ? nullptr : load_.values().data();
   const bool linear = law_.slope_exponent == 1;
   const double n = law_.slope_exponent;
   order_.downstream_first([&](int k) {
     const int d = direction[k];
+    if (load != nullptr) load[k] = 0;
     if (d == flow_leaves) return;
     const float raised = h[k] + uplift[k] * static_cast<float>(years);
     if (d == flow_stops) {
@@ -160,7 +161,8 @@ void StreamPowerSolver::erode(Grid<float>& height, double years, const AreaPower
   });
 }
 
-void StreamPowerSolver::deposit(Grid<float>& height, const Grid<float>& area) {
+template <class AreaOf>
+void StreamPowerSolver::deposit(Grid<float>& height, const AreaOf& area_of) {
   const int w = height.width();
   const auto cell_area = static_cast<float>(cell_ * cell_);
   const auto share = static_cast<float>(law_.deposition);
@@ -178,12 +180,13 @@ void StreamPowerSolver::deposit(Grid<float>& height, const Grid<float>& area) {
     if (d >= flow_stops) return;
     const float spill = height.values()[at(k + flow_step(d, w))];
     const auto distance = static_cast<float>(cell_ * flow_distance(d));
-    if (area.values()[at(k)] < stream_area) return;
+    const float area = area_of(k);
+    if (area < stream_area) return;
     if (h - spill > rests_up_to * ground_.talus.values()[at(k)] * distance) return;
     const float room = spill > h ? spill - h : std::max(0.0F, 0.5F * (lowest_donor - h));
-    const float wanted = spill > h ? room
-                                   : share * static_cast<float>(load) * cell_area /
-                                         std::max(cell_area, area.values()[at(k)]);
+    const float wanted =
+        spill > h ? room
+                  : share * static_cast<float>(load) * cell_area / (area + share * cell_area);
     const float before = h;
     h += std::min({wanted, room, static_cast<float>(load)});
     load = std::max(0.0, load - (static_cast<double>(h) - static_cast<double>(before)));
@@ -221,7 +224,14 @@ void StreamPowerSolver::step(Grid<float>& height, double years) {
   progress_.advance(0);
   if (law_.deposition > 0) {
     if (sediment_.empty()) sediment_ = Grid<float>(height.width(), height.height(), 0);
-    deposit(height, area());
+    if (ground_.rain.empty())
+      deposit(height,
+              [&](int k) { return static_cast<float>(count_.values()[at(k)] * cell_area); });
+    else
+      deposit(height, [&](int k) {
+        return static_cast<float>(static_cast<double>(rain_.values()[at(k)]) * cell_area /
+                                  rain_unit);
+      });
     progress_.advance(0);
   }
   diffuse(height, law_.diffusivity * years / cell_area, {}, progress_);

@@ -18,13 +18,12 @@
 // h'_r + d tan(talus): what would stand steeper falls and is carried off by the stream. Water
 // crosses depressions (flow_routing_pits.hpp) and leaves their ground as it is.
 //
-// With deposition, of the load q that passes a sample in a step (m over its area) G q cell² / A is
-// laid down from A = 2000 m² on where the ground is not too steep (Davy and Lague, 2009; Yuan,
-// Braun, Guerit, Rouby, Cordonnier, "A new efficient method to solve the stream power law model
-// taking into account sediment deposition", 2019; here explicit, after the erosion of the step),
-// but only up to half the way to the lowest donor; in depressions as much as there is room for. In
-// balance S then is (1
-// + G)^(1/n) times as great.
+// With deposition, of the load q that leaves a sample in a step (m over its area) G q cell² / A is
+// laid down there from A = 2000 m² on where the ground is not too steep (Davy and Lague, 2009;
+// Yuan, Braun, Guerit, Rouby, Cordonnier, "A new efficient method to solve the stream power law
+// model taking into account sediment deposition", 2019; here explicit, after the erosion of the
+// step), but only up to half the way to the lowest donor; in depressions as much as there is room
+// for. In balance S then is (1 + G)^(1/n) times as great.
 //
 // So that rivers do not run along the axes, samples are thought of as shifted from the grid, each
 // by a random vector of up to `shift` cells (stream_power_mesh.hpp): the receiver is the neighbour
@@ -98,7 +97,8 @@ class StreamPowerSolver {
   Grid<std::uint8_t> direction_;
   FlowOrder order_;
   PitRouter router_;
-  void deposit(Grid<float>& height, const Grid<float>& area);
+  template <class AreaOf>
+  void deposit(Grid<float>& height, const AreaOf& area_of);
 
   Grid<double> load_;          ///< carried by the streams in the last step, m over a sample
   Grid<float> sediment_;       ///< m

@@ -76,7 +76,7 @@ Grid<float> blurred(const Grid<float>& in, double deviation, Progress& progress,
   Grid<float> along_x(in.width(), in.height());
   parallel_for(0, in.height(), [&](int j) {
     blur_row(in.row(j), along_x.row(j), kernel, outside);
-    progress.check();
+    progress.advance(0);
   });
   Grid<float> out(in.width(), in.height());
   parallel_for(0, in.height(), [&](int j) {
@@ -84,7 +84,7 @@ Grid<float> blurred(const Grid<float>& in, double deviation, Progress& progress,
     scale_into(out.row(j), kernel[0], row(j));
     for (int k = 1; k < static_cast<int>(kernel.size()); ++k)
       add_scaled(out.row(j), kernel[static_cast<std::size_t>(k)], row(j - k), row(j + k));
-    progress.check();
+    progress.advance(0);
   });
   return out;
 }

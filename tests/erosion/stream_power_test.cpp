@@ -72,6 +72,38 @@ TEST(StreamPowerSolver, RiversSettleAtTheirSteadySlope) {
   }
 }
 
+// Where streams lay down as much of their load as G says, they must cut 1 + G times as fast to keep
+// up with the uplift: S = (1 + G) U/K A^-m for n = 1. At every sample but the ends of ridges, where
+// slopes hang on the last step's receivers.
+TEST(StreamPowerSolver, DepositionSteepensRiversByOnePlusItsShare) {
+  constexpr double share = 0.7;
+  constexpr double uplift = 1e-3;
+  constexpr double erodibility = 1e-5;
+  Steady land(0.5, 1, erodibility);
+  Progress progress;
+  StreamPowerSolver solver(
+      land.cell, {.area_exponent = 0.5, .slope_exponent = 1, .deposition = share, .wandering = 0},
+      {Grid<float>(land.size, land.size, static_cast<float>(erodibility)),
+       Grid<float>(land.size, land.size, static_cast<float>(uplift)),
+       Grid<float>(land.size, land.size, 1e4F),
+       {}},
+      StreamPowerMesh({land.height, {0, 0}, land.cell}, 1, false), 1, progress);
+  for (int s = 0; s < 1200; ++s) solver.step(land.height, 2000);
+  land.direction = solver.direction();
+  land.area = solver.area();
+  std::vector<double> ratios;
+  for (int k = 0; k < land.size * land.size; ++k) {
+    if (land.direction.values()[at(k)] >= flow_stops) continue;
+    const double plain =
+        uplift / erodibility / std::sqrt(static_cast<double>(land.area.values()[at(k)]));
+    ratios.push_back(land.slope(k) / plain);
+  }
+  std::sort(ratios.begin(), ratios.end());
+  EXPECT_NEAR(ratios[ratios.size() / 2], 1 + share, 0.01);
+  EXPECT_NEAR(ratios[ratios.size() / 20], 1 + share, 0.1);
+  EXPECT_NEAR(ratios[ratios.size() - 1 - ratios.size() / 20], 1 + share, 0.1);
+}
+
 TEST(StreamPowerSolver, NoSlopeAlongWaterIsSteeperThanTalus) {
   const int size = 50;
   Grid<float> height = rough(size, size, 20, 800, 400).height;
