@@ -49,14 +49,15 @@ void blur_row(std::span<const float> in, std::span<float> out, const std::vector
   const auto radius = static_cast<int>(kernel.size()) - 1;
   const auto size = static_cast<int>(in.size());
   std::vector<float> padded(in.size() + 2 * static_cast<std::size_t>(radius));
-  for (int k = 0; k < radius; ++k) {
-    padded[static_cast<std::size_t>(k)] =
-        in[static_cast<std::size_t>(inside(k - radius, size, outside))];
-    padded[static_cast<std::size_t>(radius + size + k)] =
-        in[static_cast<std::size_t>(inside(size + k, size, outside))];
+  float* middle = padded.data() + radius;
+  std::copy(in.begin(), in.end(), middle);
+  const auto outside_value = [&](int k) {
+    return in[static_cast<std::size_t>(inside(k, size, outside))];
+  };
+  for (int k = 1; k <= radius; ++k) {
+    middle[-k] = outside_value(-k);
+    middle[size - 1 + k] = outside_value(size - 1 + k);
   }
-  std::copy(in.begin(), in.end(), padded.begin() + radius);
-  const float* middle = padded.data() + radius;
   scale_into(out, kernel[0], middle);
   for (std::size_t k = 1; k < kernel.size(); ++k)
     add_scaled(out, kernel[k], middle - k, middle + k);

@@ -127,6 +127,24 @@ TEST(TerrainOperators, BlurLeavesAPlaneAndNothingChangesWithoutDistance) {
   EXPECT_EQ(run(blur, ramp, Blur{.distance = 0}).height, ramp.height);
 }
 
+// cos of whole half-waves is its own mirror image at both borders, so every sample of it, those on
+// the border too, loses exp(-k² σ² / 2); wide Gaussians reach over more than one image.
+TEST(Blur, MirroredWavesOnlyFade) {
+  const double wave = pi / 12;
+  const Heightfield waves = field_of(13, 25, 1, {0, 0}, [&](DVec2 p) {
+    return 100 * std::cos(wave * p.x) * std::cos(wave * p.y);
+  });
+  Progress progress;
+  for (const double deviation : {1.0, 3.0, 6.0}) {
+    const Grid<float> out = blurred(waves.height, deviation, progress, Outside::mirror);
+    const double left = std::exp(-wave * wave * deviation * deviation);
+    for (int j = 0; j < 25; ++j)
+      for (int i = 0; i < 13; ++i)
+        ASSERT_NEAR(out(i, j), left * static_cast<double>(waves.height(i, j)), 0.02)
+            << i << ' ' << j << ' ' << deviation;
+  }
+}
+
 TEST(TerrainOperators, WarpMovesByAtMostItsDistance) {
   const Heightfield ramp = field_of(129, 129, 10, {0, 0}, east);
   const Heightfield moved = run(warp, ramp, Warp{.distance = 60, .feature_size = 200});
