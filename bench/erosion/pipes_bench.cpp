@@ -3,7 +3,7 @@
 // Blender add-on on llvmpipe 8 to 16 M cell-iterations/s, A.N.T. Landscape (numpy) 7 M.
 //
 // Floor: a step reads 7 values of a cell (ground, ease, change, depth, sediment, two pipes) and
-// writes 5: 48 bytes, over memory at 41 GB/s 850 M cells/s. Arithmetic is nearer: 3 divisions and 4
+// writes 5: 48 bytes, over memory at 41 GB/s 850 M cells/s; with momentum 4 more. Arithmetic is nearer: 3 divisions and 4
 // roots per cell, and some 120 other operations, in vectors of 8.
 
 #include <benchmark/benchmark.h>
@@ -52,16 +52,22 @@ void measure(benchmark::State& state, Work work, const T& parameters, int size) 
   state.counters["of_memory"] = rate(steps * bytes_per_cell_step / bandwidth);
 }
 
-void pipes_one_grid(benchmark::State& state) {
+void pipes_one_grid(benchmark::State& state, bool momentum) {
   Pipes p;
+  p.momentum = momentum;
   p.start_cell = 1;  // below the samples: one grid
   p.duration = 0.02F;
   p.lakes = false;
   measure(state, pipes, p, static_cast<int>(state.range(1)));
 }
-BENCHMARK(pipes_one_grid)
+BENCHMARK_CAPTURE(pipes_one_grid, plain, false)
     ->ArgNames({"threads", "size"})
     ->ArgsProduct({{1, 2}, {256, 512, 1024, 2048}})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(pipes_one_grid, momentum, true)
+    ->ArgNames({"threads", "size"})
+    ->ArgsProduct({{1, 2}, {1024}})
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 

@@ -21,11 +21,11 @@
 // Mended slips of the paper:
 // - Its pipes have a fixed section, which makes waves as fast in shallow water as in deep. Ours
 //   have the section l d_f: waves run with sqrt(g d) (the scheme is then that of Bates, Horritt,
-//   Fewtrell 2010, J. Hydrology 387). Neither carries momentum along: after a dam breaks over dry
-//   ground without friction (Ritter 1892) the wave back runs at its sqrt(g d), but the depth at the
-//   dam is 21 % too great (0.54 of the lake's, not 4/9), and the front has only 0.4 of Ritter's 2
-//   sqrt(g d) and is a steep, uneven bore. With friction, which governs rivers, a flow down a plane
-//   has its speed and depth within 3 %.
+//   Fewtrell 2010, J. Hydrology 387). With friction, which governs rivers, a flow down a plane has
+//   its speed and depth within 3 %.
+// - Its water carries no momentum along, which a dam that breaks over dry ground without friction
+//   (Ritter 1892) tells: depth at the dam 21 % too great, and a steep bore in the place of the thin
+//   tongue that runs ahead. `momentum` mends it, see below.
 // - It has no friction, so nothing but the length of its pipes limits speed on a slope.
 // - It moves sediment by looking back along the velocity, which makes and loses material. Ours goes
 //   with the water through the same pipes (first-order upwind): every grain taken is laid down
@@ -38,9 +38,23 @@
 //   wide, sediment strays down side slopes, and banks that were cut steeper than `bank_angle`
 //   slide: no spikes, no channels one cell wide that can only run along the grid.
 //
+// With `momentum` a pipe keeps the speed u of its water and takes up that of the pipes around it
+// with the water that comes from them (Stelling, Duinmeijer 2003, Int. J. Numer. Methods Fluids 43,
+// their form that conserves momentum), d_m the mean depth of the two cells:
+//
+//   speed       u' = (D u + Σ_k a_k (u_k - u) + g Δt min(d_m, pipe_depth) (h_1 - h_2) / l) /
+//                    (D + Δt c |q| / d_f),   D = max(d_m, Σ_k a_k)
+//   taken up    a_k = Δt/l max(0, mean discharge from the pipe k to this one), of its 4 neighbours
+//   pipe        q' = u' (h - max(b_1, b_2)), h of the cell that it leaves
+//
+// u' never leaves the range of the speeds that it comes from and the push of the surface. Ritter's
+// depths are met within 0.6 % of the lake's in the mean over 350 cells of wave, that at the dam
+// within 1 %; bores (Stoker 1957) run at their speed. It costs a third more a step, and shorter
+// steps; rivers and what they carve are much the same, as friction governs them.
+//
 // Steps: Δt <= 0.9 l / (√2 max(sqrt(g pipe_depth), 3/2 top_speed)): neither a wave in water of
 // `pipe_depth` nor a flood (which moves at 3/2 of its speed) crosses a cell in both directions in a
-// step. Deeper lakes level out as slowly as if they were `pipe_depth` deep; their surface is flat
+// step. With `momentum` a wave rides on the flood: sqrt(g pipe_depth) + top_speed in that place. Deeper lakes level out as slowly as if they were `pipe_depth` deep; their surface is flat
 // all the same.
 //
 // Mass: depths and the change of the ground are counted in whole grains of 2^-21 m; what one cell
@@ -87,6 +101,7 @@ struct Pipes {
   bool hardness_invert = false;
   float unevenness = 1.5F;  ///< of the rock: hardness varies by e^±this
   float drag = 0.05F;       ///< c
+  bool momentum = false;    ///< whether water carries its momentum along
   float pipe_depth = 5;     ///< m
   float top_speed = 5;      ///< m/s
   float start_cell = 0;     ///< m

@@ -50,6 +50,44 @@ void drive(const RowState& a, const RowState& b, const float* before, const floa
   }
 }
 
+void drive_with_momentum(const RowState& a, const RowState& b, const MomentumRow& m,
+                         float* __restrict discharge, float* __restrict speed, int n,
+                         const StepConstants& c) {
+  const float half_step = 0.5F * c.speed_step;
+  for (int i = 0; i < n; ++i) {
+    const float drop = (a.ground[i] - b.ground[i]) + metres(a.change[i] - b.change[i]);
+    const float depth_a = metres(a.depth[i]);
+    const float depth_b = metres(b.depth[i]);
+    const float level_a = depth_a + lower(drop, 0.0F);
+    const float level_b = depth_b - higher(drop, 0.0F);
+    const float depth = higher(higher(level_a, level_b), 0.0F);
+    const float mean = 0.5F * (depth_a + depth_b);
+
+    // Water that comes in from each side in a step, over the cell's length.
+    const float back = higher(half_step * (m.discharge_back[i] + m.discharge[i]), 0.0F);
+    const float ahead = -lower(half_step * (m.discharge[i] + m.discharge_ahead[i]), 0.0F);
+    const float across_left = m.across_left_a[i] + m.across_left_b[i];
+    const float across_right = m.across_right_a[i] + m.across_right_b[i];
+    const float left = higher(half_step * across_left, 0.0F);
+    const float right = -lower(half_step * across_right, 0.0F);
+    const float u = m.speed[i];
+    const float carried = (back * (m.speed_back[i] - u) + ahead * (m.speed_ahead[i] - u)) +
+                          (left * (m.speed_left[i] - u) + right * (m.speed_right[i] - u));
+    const float held = higher(mean, (back + ahead) + (left + right));
+
+    const float force = c.gravity_step * lower(mean, c.pipe_depth) * (level_a - level_b);
+    const float along = u * mean;
+    const float across = 0.25F * (across_left + across_right);
+    const float whole = std::sqrt(along * along + across * across);
+    const float next = (u * held + carried + force) * depth /
+                       (held * depth + c.drag_step * whole + least_depth * least_depth);
+    const float most = c.top_speed;
+    const float bounded = lower(higher(next, -most), most);
+    speed[i] = bounded;
+    discharge[i] = bounded * higher(bounded > 0 ? level_a : level_b, 0.0F);
+  }
+}
+
 void limit(const Grains* depth, const Grains* sediment, const float* west, const float* south,
            const float* north, float* __restrict share, float* __restrict load, int n,
            const StepConstants& c) {

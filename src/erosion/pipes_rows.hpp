@@ -19,6 +19,7 @@ struct StepConstants {
   float drag_step = 0;        ///< c Δt, s
   float pipe_depth = 0;       ///< m
   float top_speed = 0;        ///< m/s
+  float speed_step = 0;       ///< Δt / l, s/m
   float grains_per_flux = 0;  ///< Δt / l, in grains per m²/s
   float half_per_cell = 0;    ///< 1 / 2l, 1/m
   float capacity = 0;         ///< K_c / D, grains per (m²/s)
@@ -40,6 +41,26 @@ struct RowState {
 /// Face i is crossed sideways by the mean of `across_a` and `across_b` at i and i + 1.
 void drive(const RowState& a, const RowState& b, const float* before, const float* across_a,
            const float* across_b, float* after, int n, const StepConstants& c);
+
+/// The faces that momentum comes to a row of n faces from: the next ones before and behind the way
+/// that the faces are crossed, and on their left and right.
+struct MomentumRow {
+  const float* discharge;  ///< m²/s
+  const float* discharge_back;
+  const float* discharge_ahead;
+  const float* speed;  ///< m/s
+  const float* speed_back;
+  const float* speed_ahead;
+  const float* speed_left;
+  const float* speed_right;
+  const float* across_left_a;  ///< m²/s sideways, from the left to the face: of cell a, of cell b
+  const float* across_left_b;
+  const float* across_right_a;  ///< from the face to the right
+  const float* across_right_b;
+};
+/// As `drive`, with the momentum that the water carries along.
+void drive_with_momentum(const RowState& a, const RowState& b, const MomentumRow& m,
+                         float* discharge, float* speed, int n, const StepConstants& c);
 
 /// Share of the outflow that the cell can give, and sediment per water, for n cells. `west` holds
 /// n + 1 faces.

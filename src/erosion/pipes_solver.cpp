@@ -16,8 +16,9 @@ constexpr int steps_between_rains = 8;  // rain, evaporation and slides come eve
 /// The longest stable step, s: the header's bound.
 double longest_step(double cell, const Pipes& p) {
   const double wave = std::sqrt(gravity * static_cast<double>(p.pipe_depth));
-  const double flood = 1.5 * static_cast<double>(p.top_speed);
-  return 0.9 * cell / (std::sqrt(2.0) * std::max(wave, flood));
+  const auto speed = static_cast<double>(p.top_speed);
+  const double fastest = p.momentum ? wave + speed : std::max(wave, 1.5 * speed);
+  return 0.9 * cell / (std::sqrt(2.0) * fastest);
 }
 
 StepConstants constants_of(const Pipes& p, double cell, double step) {
@@ -30,6 +31,7 @@ StepConstants constants_of(const Pipes& p, double cell, double step) {
   c.drag_step = static_cast<float>(static_cast<double>(p.drag) * step);
   c.pipe_depth = p.pipe_depth;
   c.top_speed = p.top_speed;
+  c.speed_step = static_cast<float>(step / cell);
   c.grains_per_flux = static_cast<float>(step / cell) * grains_per_metre;
   c.half_per_cell = static_cast<float>(0.5 / cell);
   c.capacity = p.capacity / p.full_depth * grains_per_metre;
@@ -76,6 +78,7 @@ struct PipeSolver::Band {
         share(width, 2),
         load(width, 2),
         discharge_y(width, 2),
+        speed(width + 1, 1),
         water_x(width + 1, 1),
         sediment_x(width + 1, 1),
         water_y(width, 2),
@@ -91,6 +94,7 @@ struct PipeSolver::Band {
   GhostGrid<float> share;
   GhostGrid<float> load;
   GhostGrid<float> discharge_y;
+  GhostGrid<float> speed;  ///< of faces that the band beside keeps
   GhostGrid<Grains> water_x;
   GhostGrid<Grains> sediment_x;
   GhostGrid<Grains> water_y;
@@ -120,7 +124,13 @@ PipeSolver::PipeSolver(PipeStart start, const Pipes& parameters)
           {width_, height_},
           {width_, height_},
           {width_ + 1, height_},
-          {width_, height_ + 1}};
+          {width_, height_ + 1},
+          {},
+          {}};
+  if (parameters_.momentum) {
+    now_.speed_west = now_.west;
+    now_.speed_south = now_.south;
+  }
   next_ = now_;
   fill_from(now_.depth, start_.depth, periodic_);
   fill_from(now_.sediment, start_.sediment, periodic_);
@@ -153,6 +163,18 @@ void PipeSolver::run(double seconds, Progress& progress) {
 
 int PipeSolver::row_of(int j) const {
   return periodic_ ? (j + height_) % height_ : j;
+}
+
+int PipeSolver::near_row(int j) const {
+  return periodic_ ? row_of(j) : std::clamp(j, 0, height_ - 1);
+}
+
+/// The first and the last of the western faces of a periodic row are the same.
+void PipeSolver::fill_sides_of_faces(GhostGrid<float>& faces, int j) const {
+  if (!periodic_) return;
+  float* row = faces.row(j);
+  row[-1] = row[width_ - 1];
+  row[width_ + 1] = row[1];
 }
 
 RowState PipeSolver::state(int j) const {
@@ -188,17 +210,42 @@ void PipeSolver::step_band(int index, Progress& progress) {
   for (int i = 0; i < width_; ++i) band.sums.taken_up += moved[i];
 }
 
-void PipeSolver::drive_x(Band& band, int j) const {
-  if (!periodic_ && (j < 0 || j >= height_)) return;
+void PipeSolver::drive_inner_x(Band& band, int j) {
   const int row = row_of(j);
   const RowState at = state(row);
+  const RowState west{at.ground - 1, at.change - 1, at.depth - 1};
   const float* before = now_.west.row(row);
+  const float* south = now_.south.row(row);
+  const float* north = now_.south.row(row + 1);
   float* out = band.east.row(j & 1);
-  drive({at.ground - 1, at.change - 1, at.depth - 1}, at, before, now_.south.row(row) - 1,
-        now_.south.row(row + 1) - 1, out, width_ + 1, constants_);
+  if (!parameters_.momentum) {
+    drive(west, at, before, south - 1, north - 1, out, width_ + 1, constants_);
+    return;
+  }
+  const bool mine = j >= band.first && j < band.last;
+  const float* speed = now_.speed_west.row(row);
+  drive_with_momentum(west, at,
+                      {before, before - 1, before + 1, speed, speed - 1, speed + 1,
+                       now_.speed_west.row(near_row(row - 1)),
+                       now_.speed_west.row(near_row(row + 1)), south - 1, south, north - 1, north},
+                      out, mine ? next_.speed_west.row(j) : band.speed.row(0), width_ + 1,
+                      constants_);
+  if (mine) fill_sides_of_faces(next_.speed_west, j);
+}
+
+void PipeSolver::drive_x(Band& band, int j) {
+  if (!periodic_ && (j < 0 || j >= height_)) return;
+  drive_inner_x(band, j);
   if (periodic_) return;
+  float* out = band.east.row(j & 1);
   out[0] = out[width_] = 0;
+  if (parameters_.momentum && j >= band.first && j < band.last) {
+    float* speed = next_.speed_west.row(j);
+    speed[0] = speed[width_] = 0;
+  }
   if (parameters_.border != WaterBorder::open) return;
+  const RowState at = state(j);
+  const float* before = now_.west.row(j);
   const Grains none = 0;
   const float none_across[2] = {0, 0};
   const auto outflow = [&](int edge, int inner, float flow) {
@@ -214,16 +261,37 @@ void PipeSolver::drive_x(Band& band, int j) const {
   out[width_] = outflow(width_ - 1, width_ - 2, before[width_]);
 }
 
-void PipeSolver::drive_y(Band& band, int face) const {
-  if (!periodic_ && (face < 0 || face > height_)) return;
+void PipeSolver::drive_inner_y(Band& band, int face) {
   const int row = row_of(face);
   float* out = band.north.row(face & 1);
   const float* before = now_.south.row(row);
-  if (periodic_ || (face > 0 && face < height_)) {
-    drive(state(row - 1), state(row), before, now_.west.row(row_of(row - 1)),
-          now_.west.row(row_of(row)), out, width_, constants_);
+  const float* across_a = now_.west.row(row_of(row - 1));
+  const float* across_b = now_.west.row(row);
+  if (!parameters_.momentum) {
+    drive(state(row - 1), state(row), before, across_a, across_b, out, width_, constants_);
     return;
   }
+  const bool mine = face >= band.first && face < band.last;
+  const int back = row_of(row - 1);
+  const int ahead = row_of(row + 1);
+  const float* speed = now_.speed_south.row(row);
+  drive_with_momentum(state(row - 1), state(row),
+                      {before, now_.south.row(back), now_.south.row(ahead), speed,
+                       now_.speed_south.row(back), now_.speed_south.row(ahead), speed - 1,
+                       speed + 1, across_a, across_b, across_a + 1, across_b + 1},
+                      out, mine ? next_.speed_south.row(face) : band.speed.row(0), width_,
+                      constants_);
+  if (mine) next_.speed_south.fill_sides(face, periodic_);
+}
+
+void PipeSolver::drive_y(Band& band, int face) {
+  if (!periodic_ && (face < 0 || face > height_)) return;
+  if (periodic_ || (face > 0 && face < height_)) {
+    drive_inner_y(band, face);
+    return;
+  }
+  float* out = band.north.row(face & 1);
+  const float* before = now_.south.row(face);
   std::fill_n(out, width_, 0.0F);
   if (parameters_.border != WaterBorder::open) return;
   const int edge = face == 0 ? 0 : height_ - 1;
@@ -274,6 +342,7 @@ void PipeSolver::finish_row(Band& band, int j) {
   const FaceRow west{next_.west.row(j), band.water_x.row(0), band.sediment_x.row(0)};
   pass(band.east.row(at), band.share.row(at) - 1, band.share.row(at), band.load.row(at) - 1,
        band.load.row(at), west, width_ + 1, constants_);
+  fill_sides_of_faces(next_.west, j);
   if (!periodic_) {
     band.sums.water_out += west.water[width_] - west.water[0];
     band.sums.sediment_out += west.sediment[width_] - west.sediment[0];

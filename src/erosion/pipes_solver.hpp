@@ -74,16 +74,22 @@ class PipeSolver {
     GhostGrid<Grains> change;
     GhostGrid<float> west;   ///< m²/s, through the western face of each cell and the last eastern
     GhostGrid<float> south;  ///< one row more than cells
+    GhostGrid<float> speed_west;  ///< m/s, through the same faces; with momentum only
+    GhostGrid<float> speed_south;
   };
   struct Band;
 
   static Grid<Grains> copy_of(const GhostGrid<Grains>& grid);
   int row_of(int j) const;
+  int near_row(int j) const;
+  void fill_sides_of_faces(GhostGrid<float>& faces, int j) const;
   RowState state(int j) const;
   void step(Progress& progress);
   void step_band(int band, Progress& progress);
-  void drive_x(Band& band, int j) const;
-  void drive_y(Band& band, int face) const;
+  void drive_x(Band& band, int j);
+  void drive_inner_x(Band& band, int j);
+  void drive_y(Band& band, int face);
+  void drive_inner_y(Band& band, int face);
   void limit_row(Band& band, int j) const;
   void pass_y(Band& band, int face, bool owner);
   void finish_row(Band& band, int j);
