@@ -32,7 +32,7 @@ OperatorList erosion_operators() {
                                },
                                .maps = {"water", "velocity", "velocity_x", "velocity_y", "wetness",
                                         "wear", "sediment", "carried"},
-                               .bytes_per_sample = 96}),
+                               .bytes_per_sample = 112}),
       terrain_operator(stream_power,
                        {.map_references = [](const StreamPower& p) -> std::vector<std::string> {
                           return {p.uplift_map, p.hardness, p.rain};
@@ -59,7 +59,7 @@ OperatorList erosion_operators() {
                                 },
                                 .maps = {"water", "velocity", "velocity_x", "velocity_y", "wetness",
                                          "wear", "sediment", "carried", "layer", "strata", "loose"},
-                                .bytes_per_sample = 128}),
+                                .bytes_per_sample = 144}),
   };
 }
 

@@ -47,15 +47,18 @@
 //   taken up    a_k = Δt/l max(0, mean discharge from the pipe k to this one), of its 4 neighbours
 //   pipe        q' = u' (h - max(b_1, b_2)), h of the cell that it leaves
 //
-// u' never leaves the range of the speeds that it comes from and the push of the surface. Ritter's
-// depths are met within 0.6 % of the lake's in the mean over 350 cells of wave, that at the dam
-// within 1 %; bores (Stoker 1957) run at their speed. It costs a third more a step, and shorter
-// steps; rivers and what they carve are much the same, as friction governs them.
+// u' never leaves the range of the speeds that it comes from but by the push of the surface.
+// Ritter's depths are met within 0.6 % of the lake's in the mean over 400 cells of wave, that at
+// the dam within 1 %; bores (Stoker 1957) run at their speed. Without it, a river down a slope S >
+// 4/9 c breaks into rolling waves, as its floods (3/2 v) outrun its waves (sqrt(g d)): ripples in
+// fans. With it, as in nature, only one of S > 4 c does (3/2 v > v + sqrt(g d)).
 //
 // Steps: Δt <= 0.9 l / (√2 max(sqrt(g pipe_depth), 3/2 top_speed)): neither a wave in water of
 // `pipe_depth` nor a flood (which moves at 3/2 of its speed) crosses a cell in both directions in a
-// step. With `momentum` a wave rides on the flood: sqrt(g pipe_depth) + top_speed in that place. Deeper lakes level out as slowly as if they were `pipe_depth` deep; their surface is flat
-// all the same.
+// step. With `momentum` a wave rides on the flood: the largest sqrt(g min(d, pipe_depth)) + |v| of
+// all cells in the place of that maximum, looked up every 8 steps (with 6/5 |v|, for what it may
+// gain until the next). Deeper lakes level out as slowly as if they were `pipe_depth` deep; their
+// surface is flat all the same.
 //
 // Mass: depths and the change of the ground are counted in whole grains of 2^-21 m; what one cell
 // gives is, to the grain, what its neighbour takes. So nothing is lost but in the last rounding of
@@ -101,7 +104,7 @@ struct Pipes {
   bool hardness_invert = false;
   float unevenness = 1.5F;  ///< of the rock: hardness varies by e^±this
   float drag = 0.05F;       ///< c
-  bool momentum = false;    ///< whether water carries its momentum along
+  bool momentum = true;     ///< whether water carries its momentum along
   float pipe_depth = 5;     ///< m
   float top_speed = 5;      ///< m/s
   float start_cell = 0;     ///< m

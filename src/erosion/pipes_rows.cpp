@@ -1,6 +1,7 @@
 #include "erosion/pipes_rows.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace wold::pipes_detail {
@@ -8,6 +9,7 @@ namespace wold::pipes_detail {
 namespace {
 
 constexpr float least_depth = 1e-6F;  // m: less does not flow
+constexpr float headroom = 1.2F;      // what water may gain in speed until it is looked at again
 constexpr float still_depth = 1e-4F;  // m: added to the depth that a speed is of
 
 // By value, so that loops become vector code.
@@ -232,6 +234,19 @@ void sediment_discharge(const Grains* depth, const Grains* sediment, const float
     const float load = static_cast<float>(sediment[i]) / (static_cast<float>(depth[i]) + 1);
     out[i] = load * std::sqrt(u * u + v * v);
   }
+}
+
+float fastest(const Grains* depth, const float* west, const float* south, const float* north, int n,
+              float pipe_depth) {
+  std::int32_t most = 0;  // floats that are not negative compare as their bits
+  for (int i = 0; i < n; ++i) {
+    const float u = higher(std::abs(west[i]), std::abs(west[i + 1]));
+    const float v = higher(std::abs(south[i]), std::abs(north[i]));
+    const float wave = std::sqrt(gravity * lower(metres(depth[i]), pipe_depth));
+    const auto bits = std::bit_cast<std::int32_t>(wave + headroom * std::sqrt(u * u + v * v));
+    most = bits > most ? bits : most;
+  }
+  return std::bit_cast<float>(most);
 }
 
 float speed_of(float discharge_in, float discharge_out, Grains depth, float top_speed) {

@@ -10,6 +10,7 @@
 namespace wold::pipes_detail {
 
 using Grains = std::int32_t;
+inline constexpr float gravity = 9.81F;  ///< m/s²
 inline constexpr float metres_per_grain = 0x1p-21F;
 inline constexpr float grains_per_metre = 0x1p21F;
 
@@ -112,6 +113,11 @@ std::int64_t slide(const SlideState& below, const SlideState& at, const SlideSta
 /// Discharge of sediment in each cell, m²/s: `west` holds n + 1 faces.
 void sediment_discharge(const Grains* depth, const Grains* sediment, const float* west,
                         const float* south, const float* north, float* out, int n);
+
+/// The fastest that anything moves in these cells, m/s: waves on water that runs, and a little
+/// more. Speeds of faces in m/s, `west` of n + 1.
+float fastest(const Grains* depth, const float* west, const float* south, const float* north, int n,
+              float pipe_depth);
 
 /// Mean velocity of a cell from the discharges of two opposite faces, m/s.
 float speed_of(float discharge_in, float discharge_out, Grains depth, float top_speed);

@@ -1,23 +1,18 @@
-#include "erosion/pipes_solver.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "erosion/pipes_band.hpp"
 
 namespace wold::pipes_detail {
 
 namespace {
 
-constexpr double gravity = 9.81;        // m/s²
 constexpr int steps_between_rains = 8;  // rain, evaporation and slides come every so many steps
+constexpr double least_fastest = 0.6;   // of the fastest that may be
 
-/// The longest stable step, s: the header's bound.
-double longest_step(double cell, const Pipes& p) {
-  const double wave = std::sqrt(gravity * static_cast<double>(p.pipe_depth));
-  const auto speed = static_cast<double>(p.top_speed);
-  const double fastest = p.momentum ? wave + speed : std::max(wave, 1.5 * speed);
+double longest_step(double cell, double fastest) {
   return 0.9 * cell / (std::sqrt(2.0) * fastest);
 }
 
@@ -27,7 +22,7 @@ StepConstants constants_of(const Pipes& p, double cell, double step) {
     return static_cast<float>(-std::expm1(-static_cast<double>(rate) * step));
   };
   StepConstants c;
-  c.gravity_step = static_cast<float>(gravity * step / cell);
+  c.gravity_step = static_cast<float>(static_cast<double>(gravity) * step / cell);
   c.drag_step = static_cast<float>(static_cast<double>(p.drag) * step);
   c.pipe_depth = p.pipe_depth;
   c.top_speed = p.top_speed;
@@ -67,45 +62,6 @@ GrainSums& GrainSums::operator+=(const GrainSums& b) {
   return *this;
 }
 
-/// Rows [first, last) and the rows of working values that roll over them; two of each kind, for
-/// even and odd rows.
-struct PipeSolver::Band {
-  Band(int first_row, int last_row, int width)
-      : first(first_row),
-        last(last_row),
-        east(width + 1, 2),
-        north(width, 2),
-        share(width, 2),
-        load(width, 2),
-        discharge_y(width, 2),
-        speed(width + 1, 1),
-        water_x(width + 1, 1),
-        sediment_x(width + 1, 1),
-        water_y(width, 2),
-        sediment_y(width, 2),
-        moved(width, 1),
-        outside(width, 1),
-        dry(width, 1) {}
-
-  int first;
-  int last;
-  GhostGrid<float> east;   ///< driven through western faces
-  GhostGrid<float> north;  ///< driven through southern faces
-  GhostGrid<float> share;
-  GhostGrid<float> load;
-  GhostGrid<float> discharge_y;
-  GhostGrid<float> speed;  ///< of faces that the band beside keeps
-  GhostGrid<Grains> water_x;
-  GhostGrid<Grains> sediment_x;
-  GhostGrid<Grains> water_y;
-  GhostGrid<Grains> sediment_y;
-  GhostGrid<Grains> moved;
-  GhostGrid<float> outside;  ///< ground beyond an open border
-  GhostGrid<Grains> dry;     ///< zeros
-  FaceRow faces_y[2] = {};
-  GrainSums sums;
-};
-
 PipeSolver::PipeSolver(PipeStart start, const Pipes& parameters)
     : parameters_(parameters),
       start_(std::move(start)),
@@ -143,22 +99,36 @@ PipeSolver::PipeSolver(PipeStart start, const Pipes& parameters)
 
 PipeSolver::~PipeSolver() = default;
 
-double PipeSolver::step_count(double seconds, double cell, const Pipes& parameters) {
-  return std::ceil(seconds / longest_step(cell, parameters));
+void PipeSolver::run(double seconds, Progress& progress) {
+  for (double left = seconds; left > 0;) {
+    const double longest = longest_step(start_.ground.cell, fastest_now(progress));
+    const double needed = std::ceil(left / longest);
+    const bool last = needed <= steps_between_rains;
+    const int count = last ? static_cast<int>(needed) : steps_between_rains;
+    const double step_seconds = last ? left / needed : longest;
+    constants_ = constants_of(parameters_, start_.ground.cell, step_seconds);
+    let_rain(count * step_seconds, progress);
+    for (int k = 0; k < count; ++k) step(step_seconds, progress);
+    let_slide(count * step_seconds, progress);
+    left = last ? 0 : left - count * step_seconds;
+  }
 }
 
-void PipeSolver::run(double seconds, Progress& progress) {
-  const double steps = step_count(seconds, start_.ground.cell, parameters_);
-  if (steps < 1) return;
-  const double step_seconds = seconds / steps;
-  constants_ = constants_of(parameters_, start_.ground.cell, step_seconds);
-  for (double done = 0; done < steps;) {
-    const int count = static_cast<int>(std::min(steps - done, 1.0 * steps_between_rains));
-    let_rain(count * step_seconds, progress);
-    for (int k = 0; k < count; ++k) step(progress);
-    let_slide(count * step_seconds, progress);
-    done += count;
-  }
+double PipeSolver::fastest_now(Progress& progress) const {
+  const double wave = std::sqrt(static_cast<double>(gravity * parameters_.pipe_depth));
+  const auto flow = static_cast<double>(parameters_.top_speed);
+  if (!parameters_.momentum) return std::max(wave, 1.5 * flow);
+  const float now = parallel_reduce(
+      0, height_, 0.0F,
+      [&](int j) {
+        progress.advance(0);
+        return fastest(now_.depth.row(j), now_.speed_west.row(j), now_.speed_south.row(j),
+                       now_.speed_south.row(periodic_ ? row_of(j + 1) : j + 1), width_,
+                       parameters_.pipe_depth);
+      },
+      [](float a, float b) { return std::max(a, b); }, 16);
+  const double most = wave + flow;
+  return std::clamp(static_cast<double>(now), least_fastest * most, most);
 }
 
 int PipeSolver::row_of(int j) const {
@@ -181,8 +151,14 @@ RowState PipeSolver::state(int j) const {
   return {ground_.row(j), now_.change.row(j), now_.depth.row(j)};
 }
 
-void PipeSolver::step(Progress& progress) {
-  parallel_for(0, static_cast<int>(bands_.size()), [&](int b) { step_band(b, progress); });
+void PipeSolver::step(double seconds, Progress& progress) {
+  ++steps_;
+  const double seconds_per_row = seconds / height_;
+  parallel_for(0, static_cast<int>(bands_.size()), [&](int b) {
+    Band& band = bands_[static_cast<std::size_t>(b)];
+    progress.advance(seconds_per_row * (band.last - band.first));
+    step_band(band);
+  });
   for (Band& band : bands_) sums_ += std::exchange(band.sums, {});
   std::swap(now_, next_);
   fill_ends(now_);
@@ -194,9 +170,7 @@ void PipeSolver::fill_ends(Fields& fields) const {
   fields.change.fill_ends(periodic_);
 }
 
-void PipeSolver::step_band(int index, Progress& progress) {
-  Band& band = bands_[static_cast<std::size_t>(index)];
-  progress.advance(static_cast<double>(width_) * (band.last - band.first));
+void PipeSolver::step_band(Band& band) {
   std::fill_n(band.moved.row(0), width_, 0);
   drive_y(band, band.first - 1);
   for (int j = band.first - 1; j <= band.last; ++j) {
@@ -208,107 +182,6 @@ void PipeSolver::step_band(int index, Progress& progress) {
   }
   const Grains* moved = band.moved.row(0);
   for (int i = 0; i < width_; ++i) band.sums.taken_up += moved[i];
-}
-
-void PipeSolver::drive_inner_x(Band& band, int j) {
-  const int row = row_of(j);
-  const RowState at = state(row);
-  const RowState west{at.ground - 1, at.change - 1, at.depth - 1};
-  const float* before = now_.west.row(row);
-  const float* south = now_.south.row(row);
-  const float* north = now_.south.row(row + 1);
-  float* out = band.east.row(j & 1);
-  if (!parameters_.momentum) {
-    drive(west, at, before, south - 1, north - 1, out, width_ + 1, constants_);
-    return;
-  }
-  const bool mine = j >= band.first && j < band.last;
-  const float* speed = now_.speed_west.row(row);
-  drive_with_momentum(west, at,
-                      {before, before - 1, before + 1, speed, speed - 1, speed + 1,
-                       now_.speed_west.row(near_row(row - 1)),
-                       now_.speed_west.row(near_row(row + 1)), south - 1, south, north - 1, north},
-                      out, mine ? next_.speed_west.row(j) : band.speed.row(0), width_ + 1,
-                      constants_);
-  if (mine) fill_sides_of_faces(next_.speed_west, j);
-}
-
-void PipeSolver::drive_x(Band& band, int j) {
-  if (!periodic_ && (j < 0 || j >= height_)) return;
-  drive_inner_x(band, j);
-  if (periodic_) return;
-  float* out = band.east.row(j & 1);
-  out[0] = out[width_] = 0;
-  if (parameters_.momentum && j >= band.first && j < band.last) {
-    float* speed = next_.speed_west.row(j);
-    speed[0] = speed[width_] = 0;
-  }
-  if (parameters_.border != WaterBorder::open) return;
-  const RowState at = state(j);
-  const float* before = now_.west.row(j);
-  const Grains none = 0;
-  const float none_across[2] = {0, 0};
-  const auto outflow = [&](int edge, int inner, float flow) {
-    const float rise = (at.ground[inner] - at.ground[edge]) +
-                       metres_per_grain * static_cast<float>(at.change[inner] - at.change[edge]);
-    const float beyond = at.ground[edge] - std::max(rise, 0.0F);
-    float driven = 0;
-    drive({at.ground + edge, at.change + edge, at.depth + edge}, {&beyond, at.change + edge, &none},
-          &flow, none_across, none_across, &driven, 1, constants_);
-    return driven;
-  };
-  out[0] = -outflow(0, 1, -before[0]);
-  out[width_] = outflow(width_ - 1, width_ - 2, before[width_]);
-}
-
-void PipeSolver::drive_inner_y(Band& band, int face) {
-  const int row = row_of(face);
-  float* out = band.north.row(face & 1);
-  const float* before = now_.south.row(row);
-  const float* across_a = now_.west.row(row_of(row - 1));
-  const float* across_b = now_.west.row(row);
-  if (!parameters_.momentum) {
-    drive(state(row - 1), state(row), before, across_a, across_b, out, width_, constants_);
-    return;
-  }
-  const bool mine = face >= band.first && face < band.last;
-  const int back = row_of(row - 1);
-  const int ahead = row_of(row + 1);
-  const float* speed = now_.speed_south.row(row);
-  drive_with_momentum(state(row - 1), state(row),
-                      {before, now_.south.row(back), now_.south.row(ahead), speed,
-                       now_.speed_south.row(back), now_.speed_south.row(ahead), speed - 1,
-                       speed + 1, across_a, across_b, across_a + 1, across_b + 1},
-                      out, mine ? next_.speed_south.row(face) : band.speed.row(0), width_,
-                      constants_);
-  if (mine) next_.speed_south.fill_sides(face, periodic_);
-}
-
-void PipeSolver::drive_y(Band& band, int face) {
-  if (!periodic_ && (face < 0 || face > height_)) return;
-  if (periodic_ || (face > 0 && face < height_)) {
-    drive_inner_y(band, face);
-    return;
-  }
-  float* out = band.north.row(face & 1);
-  const float* before = now_.south.row(face);
-  std::fill_n(out, width_, 0.0F);
-  if (parameters_.border != WaterBorder::open) return;
-  const int edge = face == 0 ? 0 : height_ - 1;
-  const RowState at = state(edge);
-  const RowState inner = state(face == 0 ? 1 : height_ - 2);
-  float* beyond = band.outside.row(0);
-  for (int i = 0; i < width_; ++i) {
-    const float rise = (inner.ground[i] - at.ground[i]) +
-                       metres_per_grain * static_cast<float>(inner.change[i] - at.change[i]);
-    beyond[i] = at.ground[i] - std::max(rise, 0.0F);
-  }
-  const RowState outside{beyond, at.change, band.dry.row(0)};
-  const float* across = now_.west.row(edge);
-  if (face == 0)
-    drive(outside, at, before, across, across, out, width_, constants_);
-  else
-    drive(at, outside, before, across, across, out, width_, constants_);
 }
 
 void PipeSolver::limit_row(Band& band, int j) const {

@@ -50,11 +50,11 @@ class PipeSolver {
   PipeSolver& operator=(const PipeSolver&) = delete;
   ~PipeSolver();
 
-  /// Lets `seconds` pass. Advances the progress by cells times steps. Throws Error(cancelled), and
+  /// Lets `seconds` pass, and advances the progress by them. Throws Error(cancelled), and
   /// Error(limit) for water deeper than the grains can count.
   void run(double seconds, Progress& progress);
-  /// Steps that `run` would take.
-  static double step_count(double seconds, double cell, const Pipes& parameters);
+  /// Taken so far.
+  int steps() const { return steps_; }
 
   const Heightfield& ground() const { return start_.ground; }
   Grid<Grains> change() const { return copy_of(now_.change); }
@@ -84,8 +84,9 @@ class PipeSolver {
   int near_row(int j) const;
   void fill_sides_of_faces(GhostGrid<float>& faces, int j) const;
   RowState state(int j) const;
-  void step(Progress& progress);
-  void step_band(int band, Progress& progress);
+  double fastest_now(Progress& progress) const;  ///< m/s, for the step
+  void step(double seconds, Progress& progress);
+  void step_band(Band& band);
   void drive_x(Band& band, int j);
   void drive_inner_x(Band& band, int j);
   void drive_y(Band& band, int face);
@@ -117,6 +118,7 @@ class PipeSolver {
   GhostGrid<Grains> slid_;  ///< change when the ground slid last
   Grid<float> wet_time_;    ///< s
   double time_ = 0;         ///< s
+  int steps_ = 0;
   int rains_ = 0;
   std::vector<Band> bands_;
   GrainSums sums_;

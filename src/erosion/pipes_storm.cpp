@@ -42,10 +42,7 @@ class Storm {
       const double seconds = seconds_on(static_cast<int>(k), parameters_);
       begin(last ? input_ : ground_over(rungs[k]));
       const double cell = solver_->ground().cell;
-      context_.progress.begin(fmt::format("water over cells of {:.3g} m", cell),
-                              static_cast<double>(rungs[k].height.size()) *
-                                  PipeSolver::step_count(seconds, cell, parameters_),
-                              "cell steps");
+      context_.progress.begin(fmt::format("water over cells of {:.3g} m", cell), seconds, "s");
       solver_->run(seconds, context_.progress);
       context_.progress.end();
       add_sums();

@@ -41,10 +41,13 @@ TEST(Pipes, StillLakeStaysFlat) {
   p.water = "lake";
   p.duration = 0.2F;
   p.capacity = 1;
-  const TerrainResult result = run_with(pipes, bed, p, {{"lake", water}});
-  EXPECT_EQ(result.maps.at("water"), water);
-  EXPECT_EQ(result.field.height, bed.height);
-  for (const float v : result.maps.at("velocity").values()) EXPECT_EQ(v, 0);
+  for (const bool momentum : {true, false}) {
+    p.momentum = momentum;
+    const TerrainResult result = run_with(pipes, bed, p, {{"lake", water}});
+    EXPECT_EQ(result.maps.at("water"), water);
+    EXPECT_EQ(result.field.height, bed.height);
+    for (const float v : result.maps.at("velocity").values()) EXPECT_EQ(v, 0);
+  }
 }
 
 // v² = g d S / c and q = v d = rain · way: no inertia left, the same at each place of the plane.
@@ -63,6 +66,28 @@ TEST(Pipes, RainRunsDownAPlaneWithItsSpeed) {
     EXPECT_NEAR(result.maps.at("velocity_x")(i, 4), speed, 0.03 * speed);
     EXPECT_NEAR(result.maps.at("water")(i, 4), q / speed, 0.03 * q / speed);
   }
+}
+
+// A slope between 4/9 and 4 times the drag: without momentum waves roll down it.
+TEST(Pipes, SteepRiversRunSmoothly) {
+  const Heightfield plane = field_of(400, 4, 4, {0, 0}, [](DVec2 x) { return 500 - 0.1 * x.x; });
+  Pipes p = clear_water();
+  p.spring_places = {20, 6};
+  p.spring_rates = {20};
+  p.duration = 0.4F;
+  const auto roughness = [&](bool momentum) {
+    p.momentum = momentum;
+    const Grid<float> water = run_with(pipes, plane, p).maps.at("water");
+    float least = 1e9F;
+    float most = 0;
+    for (int i = 200; i < 330; ++i) {
+      least = std::min(least, water(i, 1));
+      most = std::max(most, water(i, 1));
+    }
+    return most / least - 1;
+  };
+  EXPECT_LT(roughness(true), 0.001F);
+  EXPECT_GT(roughness(false), 0.1F);
 }
 
 // Off a cone it runs alike in every direction, along the grid as across it.
@@ -114,6 +139,7 @@ TEST(Pipes, MassIsKeptWhateverTheBorder) {
   for (const WaterBorder border : {WaterBorder::open, WaterBorder::closed, WaterBorder::periodic}) {
     Pipes p;
     p.border = border;
+    p.momentum = border != WaterBorder::closed;
     p.duration = 0.3F;
     p.evaporation = 0.5F;
     p.start_cell = 25;
