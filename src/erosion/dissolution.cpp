@@ -21,14 +21,8 @@ namespace {
 
 constexpr float wall = 1e6F;          // m, height of ground beyond a closed border
 constexpr float drop_beyond = 0.01F;  // of a cell: fall of the ground beyond an open border
+constexpr float least_drop = 1e-4F;   // of a cell: flat ground dissolves as if it fell by that
 constexpr int rows_per_task = 16;
-
-struct RowSums {
-  std::int64_t water_in = 0;
-  std::int64_t water_out = 0;
-  std::int64_t ground_out = 0;
-  std::int64_t taken_up = 0;
-};
 
 class SlowWater {
  public:
@@ -42,12 +36,13 @@ class SlowWater {
     return {ground_.row(j),    change_.row(j), depth_.row(j),
             dissolved_.row(j), give_.row(j),   load_.row(j)};
   }
+  GroundRow ground_row(int j) const { return {ground_.row(j), change_.row(j), taken_.row(j)}; }
   void set_ghosts();
+  void set_border(float beyond);
   void weather_and_exchange(float turn);
-  void weather_row(int j, float turn, RowSums& sums);
+  WeatherConstants weather_of(float turn) const;
   void move();
-  RowSums lost_over_border() const;
-  void add(const RowSums& sums);
+  Sums lost_over_border() const;
 
   const Heightfield& input_;
   const Dissolution& p_;
@@ -58,6 +53,8 @@ class SlowWater {
   double step_ = 1;  ///< s
   GhostGrid<float> ground_;
   GhostGrid<Grains> change_;
+  GhostGrid<Grains> next_change_;
+  GhostGrid<Grains> taken_;
   GhostGrid<Grains> depth_;
   GhostGrid<Grains> dissolved_;
   GhostGrid<Grains> next_depth_;
@@ -66,7 +63,7 @@ class SlowWater {
   GhostGrid<float> load_;
   Grid<float> ease_;
   Grid<float> rain_;
-  RowSums sums_;
+  Sums sums_;
   double water_before_ = 0;  ///< grains
 };
 
@@ -79,6 +76,8 @@ SlowWater::SlowWater(const Heightfield& input, const Dissolution& p, const Terra
       periodic_(p.border == WaterBorder::periodic),
       ground_(width_, height_),
       change_(width_, height_),
+      next_change_(width_, height_),
+      taken_(width_, height_),
       depth_(width_, height_),
       dissolved_(width_, height_),
       next_depth_(width_, height_),
@@ -101,17 +100,19 @@ SlowWater::SlowWater(const Heightfield& input, const Dissolution& p, const Terra
 
 void SlowWater::set_ghosts() {
   for (int j = 0; j < height_; ++j) {
-    change_.fill_sides(j, periodic_);
     depth_.fill_sides(j, periodic_);
     dissolved_.fill_sides(j, periodic_);
   }
-  change_.fill_ends(periodic_);
   depth_.fill_ends(periodic_);
   dissolved_.fill_ends(periodic_);
-  if (periodic_) return;
   // Beyond the border there is a wall, or dry ground a little lower; it gives nothing back.
-  const float beyond =
-      p_.border == WaterBorder::closed ? wall : -drop_beyond * static_cast<float>(input_.cell);
+  set_border(p_.border == WaterBorder::closed ? wall
+                                              : -drop_beyond * static_cast<float>(input_.cell));
+}
+
+/// The ground beyond the border is higher by that than the ground inside, and dry.
+void SlowWater::set_border(float beyond) {
+  if (periodic_) return;
   const auto set = [&](int j, int i, int inner_j, int inner_i) {
     ground_.row(j)[i] = ground_.row(inner_j)[inner_i] + beyond;
     depth_.row(j)[i] = 0;
@@ -127,57 +128,50 @@ void SlowWater::set_ghosts() {
   }
 }
 
-void SlowWater::weather_row(int j, float turn, RowSums& sums) {
+WeatherConstants SlowWater::weather_of(float turn) const {
   const double hours = step_ / 3600;
-  const auto rained =
-      static_cast<float>(static_cast<double>(p_.rain) / 1000 * hours) * grains_per_metre;
   const auto share = [&](float rate) {
     return static_cast<float>(-std::expm1(-static_cast<double>(rate) * hours));
   };
-  const float evaporated = share(p_.evaporation);
-  const float dissolving = share(p_.dissolving);
-  const float depositing = share(p_.depositing);
-  const auto dry = static_cast<Grains>(p_.dry_depth * grains_per_metre);
-  Grains* depth = depth_.row(j);
-  Grains* dissolved = dissolved_.row(j);
-  Grains* change = change_.row(j);
-  for (int i = 0; i < width_; ++i) {
-    const auto in = static_cast<Grains>(rain_(i, j) * rained + turn);
-    const Grains wet = depth[i] + in;
-    const auto gone = static_cast<Grains>(static_cast<float>(wet) * evaporated);
-    const Grains left = std::max(wet - gone, 0);
-    const bool dries = left < dry && evaporated > 0;
-    depth[i] = dries ? 0 : left;
-    sums.water_in += in;
-    sums.water_out += wet - depth[i];
-    const float lack =
-        p_.saturation * static_cast<float>(depth[i]) - static_cast<float>(dissolved[i]);
-    const float taken = lack > 0 ? lack * dissolving * ease_(i, j) : lack * depositing;
-    // What dries up lays down all it held.
-    const Grains x = dries ? -dissolved[i] : static_cast<Grains>(taken);
-    dissolved[i] += x;
-    change[i] -= x;
-    sums.taken_up += std::max(x, 0);
-  }
+  WeatherConstants c;
+  c.rain = static_cast<float>(static_cast<double>(p_.rain) / 1000 * hours) * grains_per_metre;
+  c.turn = turn;
+  c.evaporated = share(p_.evaporation);
+  c.dry = p_.evaporation > 0 ? static_cast<Grains>(p_.dry_depth * grains_per_metre) : 0;
+  c.saturation = p_.saturation;
+  c.dissolving = share(p_.dissolving);
+  c.depositing = share(p_.depositing);
+  c.least_drop = least_drop * static_cast<float>(input_.cell);
+  return c;
 }
 
 void SlowWater::weather_and_exchange(float turn) {
-  std::vector<RowSums> sums(static_cast<std::size_t>(height_));
+  const WeatherConstants constants = weather_of(turn);
+  set_border(0);  // it pulls nothing down
+  std::vector<Sums> sums(static_cast<std::size_t>(height_));
   parallel_for(
       0, height_,
       [&](int j) {
         context_.progress.advance(0);
-        weather_row(j, turn, sums[static_cast<std::size_t>(j)]);
+        sums[static_cast<std::size_t>(j)] =
+            weather({ground_row(j - 1), ground_row(j), ground_row(j + 1), rain_.row(j).data(),
+                     ease_.row(j).data(), depth_.row(j), dissolved_.row(j), taken_.row(j)},
+                    width_, constants);
+        taken_.fill_sides(j, periodic_);
       },
       rows_per_task);
-  for (const RowSums& s : sums) add(s);
-}
-
-void SlowWater::add(const RowSums& s) {
-  sums_.water_in += s.water_in;
-  sums_.water_out += s.water_out;
-  sums_.ground_out += s.ground_out;
-  sums_.taken_up += s.taken_up;
+  taken_.fill_ends(periodic_);
+  for (const Sums& s : sums) sums_ += s;
+  parallel_for(
+      0, height_,
+      [&](int j) {
+        context_.progress.advance(0);
+        wear(ground_row(j - 1), ground_row(j), ground_row(j + 1), next_change_.row(j), width_);
+        next_change_.fill_sides(j, periodic_);
+      },
+      rows_per_task);
+  std::swap(change_, next_change_);
+  change_.fill_ends(periodic_);
 }
 
 void SlowWater::move() {
@@ -197,7 +191,7 @@ void SlowWater::move() {
     give_.fill_ends(true);
     load_.fill_ends(true);
   } else {
-    add(lost_over_border());
+    sums_ += lost_over_border();
   }
   parallel_for(
       0, height_,
@@ -210,8 +204,8 @@ void SlowWater::move() {
   std::swap(dissolved_, next_dissolved_);
 }
 
-RowSums SlowWater::lost_over_border() const {
-  RowSums sums;
+Sums SlowWater::lost_over_border() const {
+  Sums sums;
   const auto outside = [&](int i, int j) { return i < 0 || j < 0 || i >= width_ || j >= height_; };
   const auto lose = [&](int i, int j) {
     for (int dj = -1; dj <= 1; ++dj) {

@@ -15,6 +15,11 @@
 // creeps with `speed`: Δt = l / speed, one cell a step; rates are per hour. The paper says nothing
 // of how much water moves; half of what levels a cell with its lower neighbours never overshoots.
 //
+// In theirs a hollow that water has dug holds more water, which digs it deeper, without end. So x
+// is at most half of the drop to the lowest neighbour (and a ten-thousandth of the cell): water
+// digs no holes, and bumps of a bed go first. What is taken up or laid down is spread a cell wide,
+// but never uphill: no cracks one cell wide that can only run along the grid.
+//
 // Every flow is computed by one expression of the cells at its ends, in whole grains (pipes.hpp),
 // and used by both: mass is exact. What is still dissolved at the end sinks where it is.
 
@@ -26,14 +31,14 @@ namespace wold {
 
 struct Dissolution {
   float duration = 48;       ///< h
-  float rain = 30;           ///< K_r, mm/h
+  float rain = 60;           ///< K_r, mm/h
   std::string rain_map;      ///< factor of the rain
   std::string water;         ///< map of depths at the beginning, m
-  float evaporation = 0.1F;  ///< K_e, 1/h
+  float evaporation = 0.3F;  ///< K_e, 1/h
   float dry_depth = 1e-5F;   ///< T, m
-  float saturation = 1;      ///< K_s, m of ground per m of water
-  float dissolving = 2;      ///< 1/h
-  float depositing = 4;      ///< 1/h
+  float saturation = 0.3F;   ///< K_s, m of ground per m of water
+  float dissolving = 10;     ///< 1/h
+  float depositing = 10;     ///< 1/h
   float speed = 0.02F;       ///< m/s
   WaterBorder border = WaterBorder::open;
   std::string hardness;  ///< map

@@ -53,7 +53,7 @@ OperatorList erosion_operators() {
                           return {p.rain_map, p.water, p.hardness};
                         },
                         .maps = {"water", "wear", "sediment", "carried"},
-                        .bytes_per_sample = 56}),
+                        .bytes_per_sample = 64}),
       terrain_operator(layers, {.map_references = [](const Layers& p) -> std::vector<std::string> {
                                   return {p.water.rain_map, p.water.water, p.water.hardness};
                                 },

@@ -36,13 +36,13 @@ TEST(Dissolution, PoolSaturatesExponentially) {
   const Heightfield flat = field_of(12, 12, 10, {0, 0}, [](DVec2) { return 0; });
   Dissolution p;
   p.rain = p.evaporation = 0;
-  p.saturation = 0.3F;
+  p.saturation = 0.003F;
   p.dissolving = 0.5F;
   p.duration = 3;
   p.border = WaterBorder::closed;
   p.water = "pool";
   const TerrainResult result = run_with(dissolution, flat, p, {{"pool", Grid<float>(12, 12, 2)}});
-  EXPECT_NEAR(result.maps.at("carried")(5, 5), 0.3 * 2 * (1 - std::exp(-1.5)), 1e-3);
+  EXPECT_NEAR(result.maps.at("carried")(5, 5), 0.003 * 2 * (1 - std::exp(-1.5)), 1e-5);
 }
 
 TEST(Dissolution, MassIsKeptWhateverTheBorder) {
