@@ -39,7 +39,7 @@ benchmark::Counter rate(double amount) {
   return benchmark::Counter(amount, benchmark::Counter::kIsRate);
 }
 
-PipeSolver rained_on(const Pipes& parameters, int size) {
+PipeSolver rained_on(const Pipes& parameters, int size, Progress& progress) {
   const Grid<Grains> none(size, size);
   return PipeSolver({hills(size),
                      Grid<float>(size, size, 1),
@@ -48,7 +48,7 @@ PipeSolver rained_on(const Pipes& parameters, int size) {
                      none,
                      none,
                      {}},
-                    parameters);
+                    parameters, progress);
 }
 
 void pipes_one_grid(benchmark::State& state, bool momentum) {
@@ -56,8 +56,8 @@ void pipes_one_grid(benchmark::State& state, bool momentum) {
   const auto size = static_cast<int>(state.range(1));
   Pipes p;
   p.momentum = momentum;
-  PipeSolver solver = rained_on(p, size);
   Progress progress;
+  PipeSolver solver = rained_on(p, size, progress);
   solver.run(60, progress);
   const int before = solver.steps();
   for (auto _ : state) solver.run(20, progress);

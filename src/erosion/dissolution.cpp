@@ -74,20 +74,20 @@ SlowWater::SlowWater(const Heightfield& input, const Dissolution& p, const Terra
       width_(input.height.width()),
       height_(input.height.height()),
       periodic_(p.border == WaterBorder::periodic),
-      ground_(width_, height_),
-      change_(width_, height_),
-      next_change_(width_, height_),
-      taken_(width_, height_),
-      depth_(width_, height_),
-      dissolved_(width_, height_),
-      next_depth_(width_, height_),
-      next_dissolved_(width_, height_),
-      give_(width_, height_),
-      load_(width_, height_),
       ease_(ease_of(input, p.hardness, p.hardness_invert, context)),
       rain_(factor_map(input, p.rain_map, 1, context)) {
+  // A grid at a time: with many samples each takes a while.
+  const auto make = [&]<class T>(GhostGrid<T>& grid) {
+    grid = GhostGrid<T>(width_, height_);
+    context.progress.advance(0);
+  };
+  for (GhostGrid<Grains>* grid :
+       {&change_, &next_change_, &taken_, &depth_, &dissolved_, &next_depth_, &next_dissolved_})
+    make(*grid);
+  for (GhostGrid<float>* grid : {&ground_, &give_, &load_}) make(*grid);
   const Grid<float> water = depth_map(input, p.water, context);
   for (int j = 0; j < height_; ++j) {
+    context.progress.advance(0);
     for (int i = 0; i < width_; ++i) {
       ground_.row(j)[i] = input.height(i, j);
       depth_.row(j)[i] = static_cast<Grains>(water(i, j) * grains_per_metre);
@@ -229,15 +229,14 @@ void SlowWater::run() {
   const double steps = std::ceil(seconds * static_cast<double>(p_.speed) / input_.cell);
   if (steps < 1) return;
   step_ = seconds / steps;
-  context_.progress.begin("dissolution", steps * static_cast<double>(input_.height.size()),
-                          "cell steps");
+  const ProgressStage stage(context_.progress, "water",
+                            steps * static_cast<double>(input_.height.size()), "cell steps");
   for (double k = 0; k < steps; ++k) {
     // What is less than a grain rains by turns.
     weather_and_exchange(static_cast<float>(std::fmod(k * 0.6180339887498949, 1.0)));
     move();
     context_.progress.advance(static_cast<double>(input_.height.size()));
   }
-  context_.progress.end();
 }
 
 TerrainResult SlowWater::result() const {
@@ -247,6 +246,7 @@ TerrainResult SlowWater::result() const {
   Grid<float> water(width_, height_);
   double water_after = 0;
   for (int j = 0; j < height_; ++j) {
+    context_.progress.advance(0);
     for (int i = 0; i < width_; ++i) {
       change(i, j) = change_.row(j)[i];
       dissolved(i, j) = dissolved_.row(j)[i];
@@ -259,7 +259,7 @@ TerrainResult SlowWater::result() const {
   earth.before = volume(input_.height, input_.cell);
   earth.removed = per_grain * static_cast<double>(sums_.ground_out);
   earth.moved = per_grain * static_cast<double>(sums_.taken_up);
-  out.field = changed_ground(input_, change, dissolved, out.maps);
+  out.field = changed_ground(input_, change, dissolved, out.maps, context_.progress);
   earth.after = volume(out.field.height, input_.cell);
   Balance wet{.quantity = "water"};
   wet.before = per_grain * water_before_;
@@ -307,6 +307,7 @@ Description<Dissolution> describe(const Dissolution&) {
 TerrainResult dissolution(const Heightfield& input, const Dissolution& parameters,
                           const TerrainContext& context) {
   check_erosion(input, parameters);
+  const ProgressStage stage(context.progress, "dissolution", 0, "");
   SlowWater water(input, parameters, context);
   water.run();
   return water.result();

@@ -30,7 +30,7 @@
 namespace wold {
 
 struct Dissolution {
-  float duration = 48;       ///< h
+  float duration = 96;       ///< h
   float rain = 60;           ///< K_r, mm/h
   std::string rain_map;      ///< factor of the rain
   std::string water;         ///< map of depths at the beginning, m

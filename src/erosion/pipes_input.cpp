@@ -91,21 +91,25 @@ Grid<float> ease_of(const Heightfield& input, const std::string& hardness, bool 
 }
 
 Heightfield changed_ground(const Heightfield& input, const Grid<Grains>& change,
-                           const Grid<Grains>& carried, std::map<std::string, Grid<float>>& maps) {
+                           const Grid<Grains>& carried, std::map<std::string, Grid<float>>& maps,
+                           Progress& progress) {
   Heightfield out = input;
   Grid<float> laid(change.width(), change.height());
   Grid<float> worn = laid;
   double left = 0;  // what rounding to float leaves goes to the next sample
-  for (std::size_t k = 0; k < change.size(); ++k) {
-    const Grains grains = change.values()[k] + carried.values()[k];
-    if (grains == 0) continue;
-    const double metres = static_cast<double>(metres_per_grain) * grains;
-    const double exact = static_cast<double>(input.height.values()[k]) + metres + left;
-    const auto rounded = static_cast<float>(exact);
-    left = exact - static_cast<double>(rounded);
-    out.height.values()[k] = rounded;
-    laid.values()[k] = static_cast<float>(std::max(metres, 0.0));
-    worn.values()[k] = static_cast<float>(std::max(-metres, 0.0));
+  for (int j = 0; j < change.height(); ++j) {
+    progress.advance(0);
+    for (int i = 0; i < change.width(); ++i) {
+      const Grains grains = change(i, j) + carried(i, j);
+      if (grains == 0) continue;
+      const double metres = static_cast<double>(metres_per_grain) * grains;
+      const double exact = static_cast<double>(input.height(i, j)) + metres + left;
+      const auto rounded = static_cast<float>(exact);
+      left = exact - static_cast<double>(rounded);
+      out.height(i, j) = rounded;
+      laid(i, j) = static_cast<float>(std::max(metres, 0.0));
+      worn(i, j) = static_cast<float>(std::max(-metres, 0.0));
+    }
   }
   maps["sediment"] = std::move(laid);
   maps["wear"] = std::move(worn);

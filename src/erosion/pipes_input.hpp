@@ -29,6 +29,7 @@ Grid<float> depth_map(const Heightfield& input, const std::string& name,
 /// The input with its change and with what is still in the water; adds the maps "wear", "sediment"
 /// and "carried".
 Heightfield changed_ground(const Heightfield& input, const Grid<Grains>& change,
-                           const Grid<Grains>& carried, std::map<std::string, Grid<float>>& maps);
+                           const Grid<Grains>& carried, std::map<std::string, Grid<float>>& maps,
+                           Progress& progress);
 
 }  // namespace wold::pipes_detail

@@ -127,6 +127,7 @@ Brought bring(const PipeSolver& from, const Heightfield& to, Progress& progress)
   const Grid<float> shape = over(coarse.height);
   Grid<float> depth = over(to_metres(from.depth()));
   Grid<float> sediment = over(to_metres(from.sediment()));
+  progress.advance(0);
   for (std::size_t k = 0; k < depth.size(); ++k) {
     // The surface stays where the water is deep; where it is thin it follows the ground.
     const float d = std::max(depth.values()[k], 0.0F);
@@ -135,6 +136,7 @@ Brought bring(const PipeSolver& from, const Heightfield& to, Progress& progress)
     sediment.values()[k] = std::max(sediment.values()[k], 0.0F);
   }
   const auto exact = [&](const Grid<float>& grid, const Grid<Grains>& before) {
+    progress.advance(0);
     return to_grains(grid, to.cell, volume_of(before, coarse.cell));
   };
   return {exact(over(to_metres(from.change())), from.change()), exact(depth, from.depth()),

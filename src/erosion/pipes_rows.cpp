@@ -52,9 +52,29 @@ void drive(const RowState& a, const RowState& b, const float* before, const floa
   }
 }
 
-void drive_with_momentum(const RowState& a, const RowState& b, const MomentumRow& m,
-                         float* __restrict discharge, float* __restrict speed, int n,
-                         const StepConstants& c) {
+namespace {
+
+/// The faces that momentum comes to a row of faces from: the next ones before and behind the way
+/// that they are crossed, and on their left and right.
+struct MomentumRow {
+  const float* discharge;  // m²/s
+  const float* discharge_back;
+  const float* discharge_ahead;
+  const float* speed;  // m/s
+  const float* speed_back;
+  const float* speed_ahead;
+  const float* speed_left;
+  const float* speed_right;
+  const float* across_left_a;  // m²/s sideways, from the left to the face: of cell a, of cell b
+  const float* across_left_b;
+  const float* across_right_a;  // from the face to the right
+  const float* across_right_b;
+};
+
+// Inline, so that rows which are one and the same stay few pointers.
+inline void drive_with_momentum(const RowState a, const RowState b, const MomentumRow m,
+                                float* __restrict discharge, float* __restrict speed, int n,
+                                const StepConstants& c) {
   const float half_step = 0.5F * c.speed_step;
   for (int i = 0; i < n; ++i) {
     const float drop = (a.ground[i] - b.ground[i]) + metres(a.change[i] - b.change[i]);
@@ -88,6 +108,31 @@ void drive_with_momentum(const RowState& a, const RowState& b, const MomentumRow
     speed[i] = bounded;
     discharge[i] = bounded * higher(bounded > 0 ? level_a : level_b, 0.0F);
   }
+}
+
+}  // namespace
+
+void drive_x_with_momentum(const RowState& cells, const FaceState& faces, const float* speed_south,
+                           const float* speed_north, const float* south, const float* north,
+                           float* discharge, float* speed, int n, const StepConstants& c) {
+  const float* q = faces.discharge;
+  const float* u = faces.speed;
+  drive_with_momentum({cells.ground - 1, cells.change - 1, cells.depth - 1}, cells,
+                      {q, q - 1, q + 1, u, u - 1, u + 1, speed_south, speed_north, south - 1, south,
+                       north - 1, north},
+                      discharge, speed, n, c);
+}
+
+void drive_y_with_momentum(const RowState& below, const RowState& above, const FaceState& faces,
+                           const FaceState& faces_below, const FaceState& faces_above,
+                           const float* west_below, const float* west_above, float* discharge,
+                           float* speed, int n, const StepConstants& c) {
+  const float* u = faces.speed;
+  drive_with_momentum(
+      below, above,
+      {faces.discharge, faces_below.discharge, faces_above.discharge, u, faces_below.speed,
+       faces_above.speed, u - 1, u + 1, west_below, west_above, west_below + 1, west_above + 1},
+      discharge, speed, n, c);
 }
 
 void limit(const Grains* depth, const Grains* sediment, const float* west, const float* south,

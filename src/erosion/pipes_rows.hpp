@@ -43,25 +43,23 @@ struct RowState {
 void drive(const RowState& a, const RowState& b, const float* before, const float* across_a,
            const float* across_b, float* after, int n, const StepConstants& c);
 
-/// The faces that momentum comes to a row of n faces from: the next ones before and behind the way
-/// that the faces are crossed, and on their left and right.
-struct MomentumRow {
+/// What flows through the faces of a row.
+struct FaceState {
   const float* discharge;  ///< m²/s
-  const float* discharge_back;
-  const float* discharge_ahead;
-  const float* speed;  ///< m/s
-  const float* speed_back;
-  const float* speed_ahead;
-  const float* speed_left;
-  const float* speed_right;
-  const float* across_left_a;  ///< m²/s sideways, from the left to the face: of cell a, of cell b
-  const float* across_left_b;
-  const float* across_right_a;  ///< from the face to the right
-  const float* across_right_b;
+  const float* speed;      ///< m/s
 };
-/// As `drive`, with the momentum that the water carries along.
-void drive_with_momentum(const RowState& a, const RowState& b, const MomentumRow& m,
-                         float* discharge, float* speed, int n, const StepConstants& c);
+/// As `drive`, with the momentum that the water carries along: through the n western faces of the
+/// row `cells`, between the western faces south and north of it; `south` and `north` are discharges
+/// through the faces of its cells.
+void drive_x_with_momentum(const RowState& cells, const FaceState& faces, const float* speed_south,
+                           const float* speed_north, const float* south, const float* north,
+                           float* discharge, float* speed, int n, const StepConstants& c);
+/// Through the n faces between two rows; `west_below` and `west_above` are discharges through the
+/// western faces of their cells.
+void drive_y_with_momentum(const RowState& below, const RowState& above, const FaceState& faces,
+                           const FaceState& faces_below, const FaceState& faces_above,
+                           const float* west_below, const float* west_above, float* discharge,
+                           float* speed, int n, const StepConstants& c);
 
 /// Share of the outflow that the cell can give, and sediment per water, for n cells. `west` holds
 /// n + 1 faces.

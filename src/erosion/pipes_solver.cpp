@@ -62,35 +62,38 @@ GrainSums& GrainSums::operator+=(const GrainSums& b) {
   return *this;
 }
 
-PipeSolver::PipeSolver(PipeStart start, const Pipes& parameters)
+PipeSolver::PipeSolver(PipeStart start, const Pipes& parameters, Progress& progress)
     : parameters_(parameters),
       start_(std::move(start)),
       width_(start_.ground.height.width()),
       height_(start_.ground.height.height()),
       periodic_(parameters.border == WaterBorder::periodic),
-      ground_(width_, height_),
-      ease_(width_, height_),
-      rise_(width_, height_),
-      tangent_(width_, height_),
-      stir_(width_, height_),
       wet_time_(width_, height_) {
-  fill_from(ground_, start_.ground.height, periodic_);
-  fill_from(ease_, start_.ease, periodic_);
-  now_ = {{width_, height_},
-          {width_, height_},
-          {width_, height_},
-          {width_ + 1, height_},
-          {width_, height_ + 1},
-          {},
-          {}};
-  if (parameters_.momentum) {
-    now_.speed_west = now_.west;
-    now_.speed_south = now_.south;
+  // A grid at a time: with many samples each takes a while.
+  const auto make = [&]<class T>(GhostGrid<T>& grid, int width, int height) {
+    grid = GhostGrid<T>(width, height);
+    progress.advance(0);
+  };
+  for (Fields* fields : {&now_, &next_}) {
+    for (GhostGrid<Grains>* grid : {&fields->depth, &fields->sediment, &fields->change})
+      make(*grid, width_, height_);
+    make(fields->west, width_ + 1, height_);
+    make(fields->south, width_, height_ + 1);
+    if (!parameters_.momentum) continue;
+    make(fields->speed_west, width_ + 1, height_);
+    make(fields->speed_south, width_, height_ + 1);
   }
-  next_ = now_;
-  fill_from(now_.depth, start_.depth, periodic_);
-  fill_from(now_.sediment, start_.sediment, periodic_);
-  fill_from(now_.change, start_.change, periodic_);
+  for (GhostGrid<float>* grid : {&ground_, &ease_, &rise_, &tangent_, &stir_})
+    make(*grid, width_, height_);
+  const auto fill = [&]<class T>(GhostGrid<T>& out, const Grid<T>& in) {
+    fill_from(out, in, periodic_);
+    progress.advance(0);
+  };
+  fill(ground_, start_.ground.height);
+  fill(ease_, start_.ease);
+  fill(now_.depth, start_.depth);
+  fill(now_.sediment, start_.sediment);
+  fill(now_.change, start_.change);
   slid_ = now_.change;
   const int rows = rows_per_band(height_);
   for (int j = 0; j < height_; j += rows)

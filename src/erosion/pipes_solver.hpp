@@ -45,7 +45,8 @@ struct PipeStart {
 
 class PipeSolver {
  public:
-  PipeSolver(PipeStart start, const Pipes& parameters);
+  /// Throws Error(cancelled).
+  PipeSolver(PipeStart start, const Pipes& parameters, Progress& progress);
   PipeSolver(const PipeSolver&) = delete;
   PipeSolver& operator=(const PipeSolver&) = delete;
   ~PipeSolver();

@@ -19,13 +19,10 @@ void PipeSolver::drive_inner_x(Band& band, int j) {
     return;
   }
   const bool mine = j >= band.first && j < band.last;
-  const float* speed = now_.speed_west.row(row);
-  drive_with_momentum(west, at,
-                      {before, before - 1, before + 1, speed, speed - 1, speed + 1,
-                       now_.speed_west.row(near_row(row - 1)),
-                       now_.speed_west.row(near_row(row + 1)), south - 1, south, north - 1, north},
-                      out, mine ? next_.speed_west.row(j) : band.speed.row(0), width_ + 1,
-                      constants_);
+  drive_x_with_momentum(at, {before, now_.speed_west.row(row)},
+                        now_.speed_west.row(near_row(row - 1)),
+                        now_.speed_west.row(near_row(row + 1)), south, north, out,
+                        mine ? next_.speed_west.row(j) : band.speed.row(0), width_ + 1, constants_);
   if (mine) fill_sides_of_faces(next_.speed_west, j);
 }
 
@@ -68,15 +65,12 @@ void PipeSolver::drive_inner_y(Band& band, int face) {
     return;
   }
   const bool mine = face >= band.first && face < band.last;
-  const int back = row_of(row - 1);
-  const int ahead = row_of(row + 1);
-  const float* speed = now_.speed_south.row(row);
-  drive_with_momentum(state(row - 1), state(row),
-                      {before, now_.south.row(back), now_.south.row(ahead), speed,
-                       now_.speed_south.row(back), now_.speed_south.row(ahead), speed - 1,
-                       speed + 1, across_a, across_b, across_a + 1, across_b + 1},
-                      out, mine ? next_.speed_south.row(face) : band.speed.row(0), width_,
-                      constants_);
+  const auto faces = [&](int f) {
+    return FaceState{now_.south.row(row_of(f)), now_.speed_south.row(row_of(f))};
+  };
+  drive_y_with_momentum(state(row - 1), state(row), faces(row), faces(row - 1), faces(row + 1),
+                        across_a, across_b, out,
+                        mine ? next_.speed_south.row(face) : band.speed.row(0), width_, constants_);
   if (mine) next_.speed_south.fill_sides(face, periodic_);
 }
 

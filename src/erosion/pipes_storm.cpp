@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "base/parallel.hpp"
 #include "erosion/ground.hpp"
 #include "erosion/pipes_input.hpp"
 #include "erosion/pipes_ladder.hpp"
@@ -42,9 +43,9 @@ class Storm {
       const double seconds = seconds_on(static_cast<int>(k), parameters_);
       begin(last ? input_ : ground_over(rungs[k]));
       const double cell = solver_->ground().cell;
-      context_.progress.begin(fmt::format("water over cells of {:.3g} m", cell), seconds, "s");
+      const ProgressStage stage(context_.progress,
+                                fmt::format("water over cells of {:.3g} m", cell), seconds, "s");
       solver_->run(seconds, context_.progress);
-      context_.progress.end();
       add_sums();
     }
   }
@@ -80,8 +81,14 @@ Grid<float> Storm::uneven_ease(const Heightfield& ground) const {
   if (parameters_.unevenness <= 0) return ease;
   const Grid<float> noise =
       irregular(ground, rock_feature, rock_octaves, context_.seed, context_.progress);
-  for (std::size_t k = 0; k < ease.size(); ++k)
-    ease.values()[k] *= std::exp(2 * parameters_.unevenness * noise.values()[k]);
+  parallel_for(
+      0, ease.height(),
+      [&](int j) {
+        context_.progress.advance(0);
+        for (int i = 0; i < ease.width(); ++i)
+          ease(i, j) *= std::exp(2 * parameters_.unevenness * noise(i, j));
+      },
+      16);
   return ease;
 }
 
@@ -116,7 +123,7 @@ void Storm::begin(const Heightfield& ground) {
   }
   start.ground = ground;
   if (rock_) start.material = rock_(ground, start.change, start.ease);
-  solver_ = std::make_unique<PipeSolver>(std::move(start), parameters_);
+  solver_ = std::make_unique<PipeSolver>(std::move(start), parameters_, context_.progress);
 }
 
 void Storm::add_sums() {
@@ -131,23 +138,28 @@ void Storm::add_sums() {
 
 TerrainResult Storm::result() const {
   const double cell = input_.cell;
-  const Grid<Grains> change = solver_->change();
-  const Grid<Grains> sediment = solver_->sediment();
+  const auto made = [&](auto grid) {
+    context_.progress.advance(0);
+    return grid;
+  };
+  const Grid<Grains> change = made(solver_->change());
+  const Grid<Grains> sediment = made(solver_->sediment());
+  const Grid<Grains> depth = made(solver_->depth());
   TerrainResult out;
-  out.field = changed_ground(input_, change, sediment, out.maps);
-  Grid<float> east = solver_->velocity_x();
-  Grid<float> north = solver_->velocity_y();
+  out.field = made(changed_ground(input_, change, sediment, out.maps, context_.progress));
+  Grid<float> east = made(solver_->velocity_x());
+  Grid<float> north = made(solver_->velocity_y());
   Grid<float> speed = map_grid<float>(
       input_, context_.progress, [&](int i, int j) { return std::hypot(east(i, j), north(i, j)); });
   Balance water = water_;
-  water.after = volume_of(solver_->depth(), cell);
+  water.after = volume_of(depth, cell);
   water.moved = water.before + water.added;
   Balance earth = earth_;
   earth.before = volume(input_.height, cell);
   earth.after = volume(out.field.height, cell);
   out.balances = {earth, water};
-  out.maps["water"] = to_metres(solver_->depth());
-  out.maps["wetness"] = solver_->wetness();
+  out.maps["water"] = made(to_metres(depth));
+  out.maps["wetness"] = made(solver_->wetness());
   out.maps["velocity"] = std::move(speed);
   out.maps["velocity_x"] = std::move(east);
   out.maps["velocity_y"] = std::move(north);
@@ -159,6 +171,7 @@ TerrainResult Storm::result() const {
 TerrainResult storm(const Heightfield& input, const Pipes& parameters,
                     const TerrainContext& context, const RockFunction& rock) {
   check_springs(input, parameters);
+  const ProgressStage stage(context.progress, "water", 0, "");
   Storm storm(input, parameters, context, rock);
   storm.run();
   return storm.result();

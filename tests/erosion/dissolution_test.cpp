@@ -54,6 +54,26 @@ TEST(Dissolution, MassIsKeptWhateverTheBorder) {
   }
 }
 
+// Deeper water holds more, so a hole would dig itself ever deeper.
+TEST(Dissolution, WaterDigsNoHoles) {
+  const Heightfield land = hills(65, 65, 5);
+  const auto deepest_hole = [](const Heightfield& f) {
+    float deepest = 0;
+    for (int j = 1; j < 64; ++j)
+      for (int i = 1; i < 64; ++i) {
+        const float around = std::min(
+            {f.height(i - 1, j), f.height(i + 1, j), f.height(i, j - 1), f.height(i, j + 1)});
+        deepest = std::max(deepest, around - f.height(i, j));
+      }
+    return deepest;
+  };
+  Dissolution p;
+  p.duration = 30;
+  const TerrainResult result = run_with(dissolution, land, p);
+  EXPECT_GT(result.maps.at("wear")(32, 32) + result.maps.at("sediment")(32, 32), 0);
+  EXPECT_LT(deepest_hole(result.field), deepest_hole(land) + 0.02F);
+}
+
 TEST(Dissolution, LakeBedsBecomeSmooth) {
   const Heightfield basin = field_of(64, 64, 10, {0, 0}, [](DVec2 x) {
     return 0.0004 * std::pow(glm::length(x - 315.0), 2) +
