@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "terrain/analysis.hpp"
@@ -85,7 +86,7 @@ void spread_column(const std::vector<std::int32_t>& in, int j, int width, int he
 /// Calls `use(j, row)` with each row of the changes `change(j, i)`, spread.
 template <class Change, class Use>
 void spread(int width, int height, const std::vector<float>& kernel, const float* softness,
-            std::vector<std::int32_t>& along_rows, const Progress& progress, const Change& change,
+            std::vector<std::int32_t>& along_rows, Progress& progress, const Change& change,
             const Use& use) {
   const auto offset = [stride = droplet_stride(width)](int j) {
     return static_cast<std::ptrdiff_t>(j) * stride;
@@ -97,7 +98,7 @@ void spread(int width, int height, const std::vector<float>& kernel, const float
         change(j, in.data());
         spread_row(in.data(), along_rows.data() + offset(j), width, kernel,
                    softness == nullptr ? nullptr : softness + offset(j));
-        progress.check();
+        progress.advance(0);
       },
       rows_of_task);
   parallel_for(
@@ -106,7 +107,7 @@ void spread(int width, int height, const std::vector<float>& kernel, const float
         std::vector<std::int32_t> out(static_cast<std::size_t>(width));
         spread_column(along_rows, j, width, height, kernel, softness, out);
         use(j, out.data());
-        progress.check();
+        progress.advance(0);
       },
       rows_of_task);
 }
@@ -196,8 +197,7 @@ std::int32_t DropletGround::quantised(float height) const {
   return static_cast<std::int32_t>(std::lrint((static_cast<double>(height) - base_) / quantum_));
 }
 
-void DropletGround::spread_changes(double radius_cells, const float* softness,
-                                   const Progress& progress) {
+void DropletGround::spread_changes(double radius_cells, const float* softness, Progress& progress) {
   const std::vector<float> kernel = brush(radius_cells);
   spread(
       width_, height_, kernel, softness, spread_, progress,
@@ -214,7 +214,7 @@ void DropletGround::spread_changes(double radius_cells, const float* softness,
 }
 
 void DropletGround::settle(double bank_slope, double creep, double cell, const float* softness,
-                           const Progress& progress) {
+                           Progress& progress) {
   const double stable = bank_slope * cell / quantum_;
   const SlideRates straight = slide_rates(stable, creep);
   const SlideRates diagonal = slide_rates(stable * std::sqrt(2.0), creep);
@@ -245,7 +245,7 @@ void DropletGround::settle(double bank_slope, double creep, double cell, const f
       pairs(j, 0, j + 1, 1, diagonal);
       pairs(j, 1, j + 1, 0, diagonal);
     }
-    progress.check();
+    progress.advance(0);
   });
   parallel_for(
       0, height_,
@@ -257,26 +257,38 @@ void DropletGround::settle(double bank_slope, double creep, double cell, const f
       rows_of_task);
 }
 
-Grid<float> DropletGround::eroded(const Heightfield& input) const {
+Grid<float> DropletGround::eroded(const Heightfield& input, Progress& progress) const {
   Grid<float> out = input.height;
   double left = 0;
+  float* finest = nullptr;
+  double change_of_finest = 0;
+  // What changes by less than is handed on passes it by: no ground rises that was worn.
+  const auto taken = [&left](double change) {
+    return std::abs(left) <= std::abs(change) ? std::exchange(left, 0) : 0;
+  };
   for (int j = 0; j < height_; ++j) {
     const DropletCell* cells = cells_.data() + row_at(j);
     const std::int32_t* initial = initial_.data() + row_at(j);
     for (int i = 0; i < width_; ++i) {
-      const std::int32_t change = cells[i].height - initial[i];
-      if (change == 0) continue;
+      if (cells[i].height == initial[i]) continue;
+      const double change = quantum_ * (cells[i].height - initial[i]);
       float& height = out(i, j);
-      const double exact = static_cast<double>(height) + quantum_ * change + left;
+      const double exact = static_cast<double>(height) + change + taken(change);
       height = static_cast<float>(exact);
-      left = exact - static_cast<double>(height);
+      left += exact - static_cast<double>(height);
+      if (finest != nullptr && std::abs(height) >= std::abs(*finest)) continue;
+      finest = &height;
+      change_of_finest = change;
     }
+    progress.advance(0);
   }
+  if (finest != nullptr)
+    *finest = static_cast<float>(static_cast<double>(*finest) + taken(change_of_finest));
   return out;
 }
 
 Grid<float> DropletGround::wear(double radius_cells, const float* softness,
-                                const Progress& progress) const {
+                                Progress& progress) const {
   Grid<float> out(width_, height_);
   std::vector<std::int32_t> along_rows(cells_.size());
   spread(

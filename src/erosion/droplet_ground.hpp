@@ -24,20 +24,20 @@ class DropletGround {
   /// normal distribution as wide as a cone of radius r (variance 0.15 r² along each axis), less the
   /// width that bilinear weights have. What one sample gives is what others get, to the quantum.
   /// `softness`, if not null: erosion is spread to other samples only as far as they let it.
-  void spread_changes(double radius_cells, const float* softness, const Progress& progress);
+  void spread_changes(double radius_cells, const float* softness, Progress& progress);
 
   /// Lets banks slide that drops have cut: between two samples that lie `bank_slope` (rise over
   /// run) or more apart, and further than at first, a tenth of what is too much moves down; and
   /// loose sediment creep: of what was laid down since the beginning, a share `creep`, at most 0.1,
   /// of the difference moves down to each of eight neighbours.
   void settle(double bank_slope, double creep, double cell, const float* softness,
-              const Progress& progress);
+              Progress& progress);
 
-  /// input + change, m. What rounding to float leaves is handed to the next sample that changed,
-  /// so in all no more is lost than the last place of one height.
-  Grid<float> eroded(const Heightfield& input) const;
+  /// input + change, m. What rounding to float leaves is handed to the next sample that changed, at
+  /// last to the one nearest to 0: in all no more is lost than half the last place of that.
+  Grid<float> eroded(const Heightfield& input, Progress& progress) const;
   /// Taken up, m, spread as the changes were.
-  Grid<float> wear(double radius_cells, const float* softness, const Progress& progress) const;
+  Grid<float> wear(double radius_cells, const float* softness, Progress& progress) const;
   /// Taken up in all, m · cells.
   double total_wear() const;
 

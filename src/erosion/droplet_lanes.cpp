@@ -51,7 +51,7 @@ void DropletWalk::begin_lane(std::size_t lane, const Drop& drop) {
   lanes.from_y[lane] = drop.from.y;
   lanes.dx[lane] = drop.direction.x;
   lanes.dy[lane] = drop.direction.y;
-  lanes.v2[lane] = drop.v2;
+  lanes.v[lane] = drop.v;
   lanes.water[lane] = drop.water;
   lanes.left[lane] = drop.left;
   lanes.sediment[lane] = drop.sediment;
@@ -63,6 +63,7 @@ void DropletWalk::begin_lane(std::size_t lane, const Drop& drop) {
   lanes.from_x[lane] = lanes.x[lane] - std::floor(lanes.x[lane]);
   lanes.from_y[lane] = lanes.y[lane] - std::floor(lanes.y[lane]);
   lanes.height[lane] = height_at(lane);
+  lanes.water[lane] = drop.water / std::max(step_.rates->water, 1e-30F);
   --tally_.steps;  // its first turn only looks around
 }
 
@@ -110,19 +111,14 @@ void DropletWalk::lay_down(std::size_t lane) {
   const auto c10 = static_cast<std::int32_t>(amount * fx * (1 - fy));
   const auto c01 = static_cast<std::int32_t>(amount * (1 - fx) * fy);
   const auto c11 = static_cast<std::int32_t>(amount * fx * fy);
-  DropletChanges rest{};
-  rest.low[0] = lanes.sediment[lane] - c10 - c01 - c11;
-  rest.low[2] = c10;
-  rest.high[0] = c01;
-  rest.high[2] = c11;
+  const std::array<std::int32_t, 4> rest{lanes.sediment[lane] - c10 - c01 - c11, c10, c01, c11};
   DropletCell* low = world_.cells + lanes.from[lane];
   DropletCell* high = low + world_.stride;
-  low[0].height += rest.low[0];
-  low[1].height += rest.low[2];
-  high[0].height += rest.high[0];
-  high[1].height += rest.high[2];
-  rest.at[0] = lanes.from[lane];
-  if (world_.colors != nullptr) carry_colors(static_cast<int>(lane), 1, rest);
+  low[0].height += rest[0];
+  low[1].height += rest[1];
+  high[0].height += rest[2];
+  high[1].height += rest[3];
+  if (world_.colors != nullptr) carry_colors(lane, lanes.from[lane], rest);
 }
 
 /// Over the border of the ground, or into another tile.
@@ -141,7 +137,7 @@ void DropletWalk::leave(std::size_t lane) {
                             .from = {lanes.from_x[lane], lanes.from_y[lane]},
                             .at = lanes.from[lane],
                             .direction = {lanes.dx[lane], lanes.dy[lane]},
-                            .v2 = lanes.v2[lane],
+                            .v = lanes.v[lane],
                             .water = lanes.water[lane],
                             .left = lanes.left[lane],
                             .sediment = lanes.sediment[lane],
@@ -153,7 +149,7 @@ void DropletWalk::leave(std::size_t lane) {
 void DropletWalk::move_lane(std::size_t to, std::size_t from) {
   if (to == from) return;
   const auto move = [&](auto&... arrays) { ((arrays[to] = arrays[from]), ...); };
-  move(lanes.x, lanes.y, lanes.from_x, lanes.from_y, lanes.dx, lanes.dy, lanes.v2, lanes.water,
+  move(lanes.x, lanes.y, lanes.from_x, lanes.from_y, lanes.dx, lanes.dy, lanes.v, lanes.water,
        lanes.left, lanes.sediment, lanes.height, lanes.came_down, lanes.at, lanes.from,
        lanes.color);
 }
@@ -171,37 +167,33 @@ void DropletWalk::gather_softness(int first, int count, DropletCorners& corners)
 
 /// What is taken up has the skin's colour, and what lay beneath comes into the skin; what is laid
 /// down mixes with the skin, whose lowest part is buried.
-void DropletWalk::carry_colors(int first, int count, const DropletChanges& changes) {
+void DropletWalk::carry_colors(std::size_t lane, std::int32_t at,
+                               const std::array<std::int32_t, 4>& change) {
   DropletColors& colors = *world_.colors;
-  const auto touch = [&](std::size_t sample, std::int32_t change, float& taken, Vec3& sum,
-                         const Vec3& carried) {
+  const Vec3 carried = lanes.color[lane];
+  float taken = 0;
+  Vec3 sum{0};
+  const auto touch = [&](std::size_t sample, std::int32_t by) {
     Vec3& skin = colors.skin[sample];
-    const auto amount = static_cast<float>(std::abs(change));
-    if (change < 0) {
+    const auto amount = static_cast<float>(std::abs(by));
+    if (by < 0) {
       const float of_skin = std::min(amount, colors.depth);
       taken += amount;
       sum += of_skin * skin + (amount - of_skin) * colors.beneath[sample];
       skin += of_skin / colors.depth * (colors.beneath[sample] - skin);
-    } else if (change > 0) {
+    } else if (by > 0) {
       skin += amount / (amount + colors.depth) * (carried - skin);
     }
   };
-  for (int k = 0; k < count; ++k) {
-    const std::size_t lane = index(first + k);
-    const std::size_t low = index(changes.at[index(k)]);
-    const std::size_t high = low + index(world_.stride);
-    const std::size_t slot = index(4 * k);
-    const Vec3 carried = lanes.color[lane];
-    float taken = 0;
-    Vec3 sum{0};
-    touch(low, changes.low[slot], taken, sum, carried);
-    touch(low + 1, changes.low[slot + 2], taken, sum, carried);
-    touch(high, changes.high[slot], taken, sum, carried);
-    touch(high + 1, changes.high[slot + 2], taken, sum, carried);
-    if (taken <= 0) continue;
-    const float old = std::max(0.0F, static_cast<float>(lanes.sediment[lane]) - taken);
-    lanes.color[lane] = (old * carried + sum) / (old + taken);
-  }
+  const std::size_t low = index(at);
+  const std::size_t high = low + index(world_.stride);
+  touch(low, change[0]);
+  touch(low + 1, change[1]);
+  touch(high, change[2]);
+  touch(high + 1, change[3]);
+  if (taken <= 0) return;
+  const float old = std::max(0.0F, static_cast<float>(lanes.sediment[lane]) - taken);
+  lanes.color[lane] = (old * carried + sum) / (old + taken);
 }
 
 }  // namespace wold

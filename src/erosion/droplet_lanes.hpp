@@ -10,8 +10,8 @@
 
 namespace wold {
 
-constexpr int droplet_group = 16;  ///< drops that step together, whatever a vector holds
-constexpr int droplet_lanes = 96;  ///< under way at once: their ground stays in the first cache
+constexpr int droplet_group = 32;  ///< drops that step together, whatever a vector holds
+constexpr int droplet_lanes = 64;  ///< under way at once: their ground stays in the first cache
 
 template <class T>
 using LaneArray = std::array<T, droplet_lanes>;
@@ -21,7 +21,7 @@ struct DropletLanes {
   alignas(64) LaneArray<float> x, y;
   alignas(64) LaneArray<float> from_x, from_y;  ///< fractions of the place before
   alignas(64) LaneArray<float> dx, dy;
-  alignas(64) LaneArray<float> v2, water, left;
+  alignas(64) LaneArray<float> v, water, left;
   alignas(64) LaneArray<std::int32_t> sediment, height, came_down;
   alignas(64) LaneArray<std::int32_t> at, from;  ///< samples to the south-west, as indices
   LaneArray<Vec3> color;
@@ -36,9 +36,13 @@ struct DropletCorners {
   alignas(64) std::array<float, droplet_group> soft00, soft10, soft01, soft11;
 };
 
-/// What a group does to the ground: for each drop, height and wear of two samples of each row.
+/// What is added to a cell for each drop of a group, as one number: wear, and height above it.
+using DropletWords = std::array<std::uint64_t, droplet_group>;
+
+/// What a group does to the ground: at the sample to the south-west, east and north of it, and
+/// both.
 struct DropletChanges {
-  alignas(64) DropletBlocks low, high;
+  alignas(64) std::array<DropletWords, 4> corners;
   alignas(64) std::array<std::int32_t, droplet_group> at;              ///< sample to the south-west
   alignas(64) std::array<std::int32_t, droplet_group> nearest, speed;  ///< while recorded
 };
@@ -63,8 +67,8 @@ class DropletWalk {
   void end_lanes(int first, std::uint32_t ended);
 
   void gather_softness(int first, int count, DropletCorners& corners) const;
-  /// Moves the colours of what a group's drops took up or laid down. `changes` by lanes.
-  void carry_colors(int first, int count, const DropletChanges& changes);
+  /// Moves the colours of what a drop took up or laid down around sample `at`: heights of the four.
+  void carry_colors(std::size_t lane, std::int32_t at, const std::array<std::int32_t, 4>& change);
 
   int active() const { return active_; }
   const DropletWorld& world() const { return world_; }

@@ -11,7 +11,7 @@ DropletRates droplet_rates(const Droplets& p, double cell, double quantum) {
   DropletRates r;
   r.momentum = p.variant == DropletVariant::momentum;
   r.steps = 1 + std::max(1.0F, std::round(p.distance / length));  // the first looks around
-  r.keep = p.inertia > 0 ? std::exp(-length / p.inertia) : 0;
+  r.keep = std::max(p.inertia > 0 ? std::exp(-length / p.inertia) : 0, droplet_least_keep);
   r.turn = (1 - r.keep) * q / length;
   r.scatter = std::tan(radians(p.scatter));
   r.capacity = p.capacity / (length * length * (r.momentum ? q : length));

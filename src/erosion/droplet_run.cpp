@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
+#include "base/parallel.hpp"
 #include "erosion/droplet_rates.hpp"
 #include "erosion/ground.hpp"
 #include "terrain/import.hpp"
@@ -13,7 +15,8 @@ namespace wold {
 namespace {
 
 constexpr int showers_of_rain = 64;
-constexpr int recorded_showers = 16;    // the last: on ground that is nearly done
+constexpr int recorded_showers = 16;  // the last: on ground that is nearly done
+constexpr int rows_of_task = 16;
 constexpr double drops_of_round = 128;  // in a tile at least, before changes are spread
 
 /// How many values an array in rows of `droplet_stride` has.
@@ -24,12 +27,15 @@ std::size_t padded_size(const Heightfield& input) {
 
 /// Calls `use(k, (i, j))` for each sample, with its place in an array in rows of `droplet_stride`.
 template <class Use>
-void for_samples(int width, int height, const Use& use) {
-  for (int j = 0; j < height; ++j)
-    for (int i = 0; i < width; ++i)
-      use(static_cast<std::size_t>(j) * static_cast<std::size_t>(droplet_stride(width)) +
-              static_cast<std::size_t>(i),
-          IVec2(i, j));
+void for_samples(int width, int height, Progress& progress, const Use& use) {
+  parallel_for(
+      0, height,
+      [&](int j) {
+        const auto first = static_cast<std::size_t>(j) * droplet_stride(width);
+        for (int i = 0; i < width; ++i) use(first + static_cast<std::size_t>(i), IVec2(i, j));
+        progress.advance(0);
+      },
+      rows_of_task);
 }
 
 /// Share of the erosion that each sample lets happen.
@@ -37,7 +43,7 @@ std::vector<float> softness_of(const Heightfield& input, const Droplets& p,
                                const TerrainContext& context) {
   const Grid<float> hardness = factor_map(input, p.hardness, 0, context);
   std::vector<float> softness(padded_size(input));
-  for_samples(hardness.width(), hardness.height(), [&](std::size_t k, IVec2 at) {
+  for_samples(hardness.width(), hardness.height(), context.progress, [&](std::size_t k, IVec2 at) {
     const float h = hardness(at.x, at.y);
     softness[k] = p.hardness_invert ? h : 1 - h;
   });
@@ -53,7 +59,7 @@ DropletColors colors_of(const Heightfield& input, const Droplets& p, double quan
   for (int c = 0; c < 3; ++c) {
     const Grid<float> values =
         picture_over(path, channels[c], context.domain, input, context.progress);
-    for_samples(values.width(), values.height(),
+    for_samples(values.width(), values.height(), context.progress,
                 [&](std::size_t k, IVec2 at) { colors.beneath[k][c] = values(at.x, at.y); });
   }
   colors.skin = colors.beneath;
@@ -61,14 +67,37 @@ DropletColors colors_of(const Heightfield& input, const Droplets& p, double quan
   return colors;
 }
 
-void add_color_maps(const DropletColors& colors, int width, int height, TerrainResult& result) {
+void add_color_maps(const DropletColors& colors, int width, int height, Progress& progress,
+                    TerrainResult& result) {
   const char* const names[] = {"color.red", "color.green", "color.blue"};
   for (int c = 0; c < 3; ++c) {
     Grid<float> map(width, height);
-    for_samples(width, height,
+    for_samples(width, height, progress,
                 [&](std::size_t k, IVec2 at) { map(at.x, at.y) = colors.skin[k][c]; });
     result.maps.emplace(names[c], std::move(map));
+    progress.advance();
   }
+}
+
+/// What was taken up and what was laid down: their difference is the change of the height.
+std::pair<Grid<float>, Grid<float>> wear_and_sediment(const Grid<float>& before,
+                                                      const Grid<float>& after,
+                                                      const Grid<float>& worn, Progress& progress) {
+  std::pair<Grid<float>, Grid<float>> maps{{worn.width(), worn.height()},
+                                           {worn.width(), worn.height()}};
+  parallel_for(
+      0, worn.height(),
+      [&](int j) {
+        for (int i = 0; i < worn.width(); ++i) {
+          const float change = after(i, j) - before(i, j);
+          const float laid = std::max(0.0F, change + worn(i, j));
+          maps.first(i, j) = laid - change;
+          maps.second(i, j) = laid;
+        }
+        progress.advance(0);
+      },
+      rows_of_task);
+  return maps;
 }
 
 }  // namespace
@@ -122,7 +151,6 @@ void DropletRun::rain() {
   for (int k = 0; !tiles.empty(); ++k) round(tiles, k);
   removed_ = ground_.quantum() * static_cast<double>(tiles.removed);
   steps_ = tiles.steps;
-  context_.progress.end();
 }
 
 void DropletRun::round(DropletTiles& tiles, int k) {
@@ -142,23 +170,26 @@ void DropletRun::start_record() {
 TerrainResult DropletRun::result() {
   const int width = world_.width;
   const int height = world_.height;
-  record_.passes.resize(padded_size(input_));
-  TerrainResult result{{ground_.eroded(input_), input_.origin, input_.cell}, {}, {}};
-  Grid<float> wear = ground_.wear(radius_cells_, world_.softness, context_.progress);
-  Grid<float> sediment(width, height);
-  for (std::size_t k = 0; k < sediment.size(); ++k) {
-    const float change = result.field.height.values()[k] - input_.height.values()[k];
-    sediment.values()[k] = std::max(0.0F, change + wear.values()[k]);
-    wear.values()[k] = sediment.values()[k] - change;
-  }
-  Grid<float> discharge = discharge_map(record_, width, height);
-  result.maps.emplace("flow", flow_map(discharge, input_.cell, parameters_.contrast));
-  result.maps.emplace("discharge", std::move(discharge));
-  result.maps.emplace("velocity", velocity_map(record_, width, height));
+  Progress& progress = context_.progress;
+  progress.begin("maps of droplets", world_.colors == nullptr ? 6 : 9, "maps");
+  TerrainResult result{{ground_.eroded(input_, progress), input_.origin, input_.cell}, {}, {}};
+  progress.advance();
+  const Grid<float> worn = ground_.wear(radius_cells_, world_.softness, progress);
+  auto [wear, sediment] = wear_and_sediment(input_.height, result.field.height, worn, progress);
+  progress.advance(2);
   result.maps.emplace("wear", std::move(wear));
   result.maps.emplace("sediment", std::move(sediment));
-  if (world_.colors != nullptr) add_color_maps(colors_, width, height, result);
+  record_.passes.resize(padded_size(input_));
+  Grid<float> discharge = discharge_map(record_, width, height, progress);
+  progress.advance();
+  result.maps.emplace("flow", flow_map(discharge, input_.cell, parameters_.contrast, progress));
+  progress.advance();
+  result.maps.emplace("discharge", std::move(discharge));
+  result.maps.emplace("velocity", velocity_map(record_, width, height, progress));
+  progress.advance();
+  if (world_.colors != nullptr) add_color_maps(colors_, width, height, progress, result);
   result.balances.push_back(balance(result.field));
+  progress.end();
   return result;
 }
 

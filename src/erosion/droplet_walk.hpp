@@ -1,6 +1,7 @@
 #pragma once
 // The steps of drops inside one tile (droplets.hpp): the hot loop.
 
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -9,11 +10,16 @@
 
 namespace wold {
 
-/// One sample of the ground. Heights are integers: quanta above `DropletGround::base`.
+/// One sample of the ground. Heights are integers: quanta above `DropletGround::base`. A drop
+/// changes both by the addition of one number of 64 bits, which needs the wear in its lower half.
 struct DropletCell {
-  std::int32_t height = 0;
   std::int32_t wear = 0;  ///< quanta taken up so far
+  std::int32_t height = 0;
 };
+static_assert(std::endian::native == std::endian::little);
+
+/// What is left of a direction at least: so it is never zero.
+constexpr float droplet_least_keep = 1e-6F;
 
 /// The constants of a step, in quanta and cells.
 struct DropletRates {
@@ -40,7 +46,7 @@ struct Drop {
   Vec2 from{0};         ///< the fraction of the place before
   std::int32_t at = 0;  ///< the sample south-west of the place before, as an index
   Vec2 direction{0};
-  float v2 = 0;                ///< (m/s)²
+  float v = 0;                 ///< m/s
   float water = 1;             ///< share left
   float left = 0;              ///< steps
   std::int32_t sediment = 0;   ///< quanta · cell²

@@ -60,6 +60,7 @@ Description<Droplets> describe(const Droplets&) {
 TerrainResult droplets(const Heightfield& input, const Droplets& parameters,
                        const TerrainContext& context) {
   check_erosion(input, parameters);
+  context.progress.begin("ground for droplets", 0, "");
   DropletRun run(input, parameters, context);
   run.rain();
   return run.result();
