@@ -57,7 +57,8 @@ TEST(Tutorial, WorksLineByLine) {
     block.clear();
   }
   EXPECT_GE(commands, 5);
-  for (const char* made : {"draft.png", "other.png", "hazy.png", "draft2.png", "island.raw"})
+  for (const char* made : {"draft.png", "other.png", "hazy.png", "draft2.png", "range.png",
+                           "eroded.exr", "plots/spectrum.png", "island.raw"})
     EXPECT_TRUE(place.has(made)) << made;
 }
 
