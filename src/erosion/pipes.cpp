@@ -52,7 +52,8 @@ Description<Pipes> describe(const Pipes&) {
       .add("drag", &Pipes::drag, {.min = 0, .max = 10},
            "Friction at the bed: shear stress over density and squared speed.")
       .add("momentum", &Pipes::momentum,
-           "Whether water carries its momentum along; without, steep rivers break into ripples.")
+           "Whether water carries its momentum along: steep rivers without ripples, at twice the "
+           "work.")
       .add("pipe_depth", &Pipes::pipe_depth, {.unit = "m", .min = 0.01, .max = 1000},
            "Deeper water levels out as slowly as if it were that deep; longer steps for it.")
       .add("top_speed", &Pipes::top_speed, {.unit = "m/s", .min = 0.01, .max = 100},

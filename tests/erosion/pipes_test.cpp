@@ -151,9 +151,12 @@ TEST(Pipes, MassIsKeptWhateverTheBorder) {
 
 TEST(Pipes, SameBitsForAnyNumberOfThreads) {
   Pipes p;
-  p.duration = 0.1F;
+  p.duration = 0.05F;
   const Heightfield land = hills(150, 133, 8);
-  expect_same_for_any_threads([&] { return run_with(pipes, land, p); });
+  for (const bool momentum : {false, true}) {
+    p.momentum = momentum;
+    expect_same_for_any_threads([&] { return run_with(pipes, land, p); });
+  }
 }
 
 TEST(Pipes, SymmetricLandStaysSymmetric) {
@@ -164,6 +167,7 @@ TEST(Pipes, SymmetricLandStaysSymmetric) {
            8 * std::cos(3 * phase.y);
   });
   Pipes p = plain_rain();
+  p.momentum = true;
   p.border = WaterBorder::periodic;
   p.duration = 0.3F;
   const TerrainResult result = run_with(pipes, land, p);
@@ -177,8 +181,12 @@ TEST(Pipes, SymmetricLandStaysSymmetric) {
   EXPECT_LT(asymmetry, 0.02F);
 }
 
-TEST(Pipes, SameLandAtOtherResolutions) {
+class PipesWith : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Momentum, PipesWith, ::testing::Bool());
+
+TEST_P(PipesWith, SameLandAtOtherResolutions) {
   Pipes p;
+  p.momentum = GetParam();
   p.duration = 0.5F;
   p.start_cell = 40;
   std::vector<Grid<float>> heights;
