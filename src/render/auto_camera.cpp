@@ -20,6 +20,7 @@ constexpr int upper_rows = rows / 4;
 constexpr int proposals = 480;
 constexpr float lens_clearance = 4;   // m, within which plants are in the way
 constexpr float wall_distance = 250;  // m, within which ground above the horizon shuts the view
+constexpr float even_slope = 18;      // degrees, up to which one stands well
 constexpr int depth_classes = 12;     // from 2 m up, doubling
 
 struct Proposal {
@@ -87,7 +88,7 @@ float score_of(const ViewStatistics& v, float side_light, bool plants) {
   float score = 2.2F * bump(v.sky, 0.34F, 0.16F) + 1.2F * v.depth_variety +
                 0.9F * std::min(1.0F, v.far_share / 0.12F) +
                 0.7F * std::min(1.0F, v.skyline / 0.08F) + 0.6F * side_light + 0.8F * v.sky_above -
-                6 * v.near_share - 3 * v.wall;
+                6 * v.near_share - 3 * v.wall - 3 * std::max(0.0F, v.near_ground - 0.4F);
   if (plants)
     score += 1.3F * bump(v.plants, 0.34F, 0.2F) + 0.6F * std::min(1.0F, v.middle_share / 0.2F);
   return score;
@@ -110,7 +111,8 @@ class Finder {
     const Vec2 sunward = glm::normalize(Vec2(sun) + Vec2(1e-6F, 0));
     const float side_light = bump(glm::dot(along, sunward), -0.15F, 0.6F);
     p.landscape = shows_landscape(view, plants_);
-    p.score = score_of(view, side_light, plants_) + 0.4F * height_rank(p.camera.position);
+    p.score = score_of(view, side_light, plants_) + 0.4F * height_rank(p.camera.position) -
+              std::max(0.0F, slope_at(p.camera.position) - even_slope) / 15;
     return p;
   }
 
@@ -126,6 +128,12 @@ class Finder {
     const Range range = scene_.world().ground.height_range();
     return std::clamp((position.z - range.low) / std::max(1.0F, range.high - range.low), 0.0F,
                       1.0F);
+  }
+
+  /// Of the ground below, degrees.
+  float slope_at(Vec3 position) const {
+    return degrees(
+        std::atan(glm::length(scene_.world().ground.base(DVec2(Vec2(position))).gradient)));
   }
 
   Camera proposed(int number, float height_factor) const {
@@ -227,7 +235,7 @@ ViewStatistics look_around(const RayScene& scene, const Camera& camera, float as
       const bool plant = hit.instance != Hit::ground;
       (plant ? v.plants : v.ground) += 1;
       if (plant && hit.distance < lens_clearance) v.near_share += 1;
-      if (!plant && hit.distance < wall_distance && j < rows / 2) v.wall += 1;
+      if (!plant && hit.distance < wall_distance) (j < rows / 2 ? v.wall : v.near_ground) += 1;
       if (hit.distance > 30 && hit.distance < 400) v.middle_share += 1;
       if (hit.distance >= 400) v.far_share += 1;
       const int depth = static_cast<int>(std::log2(std::max(hit.distance, 2.0F) / 2));
@@ -235,8 +243,8 @@ ViewStatistics look_around(const RayScene& scene, const Camera& camera, float as
     }
   }
   constexpr float all = columns * rows;
-  for (float* share :
-       {&v.sky, &v.ground, &v.plants, &v.near_share, &v.middle_share, &v.far_share, &v.wall})
+  for (float* share : {&v.sky, &v.ground, &v.plants, &v.near_share, &v.middle_share, &v.far_share,
+                       &v.wall, &v.near_ground})
     *share /= all;
   v.sky_above /= static_cast<float>(columns * upper_rows);
   for (const float number : classes) {

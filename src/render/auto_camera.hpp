@@ -44,6 +44,7 @@ struct ViewStatistics {
   float near_share = 0;     ///< nearer than 4 m, plants only
   float middle_share = 0;   ///< surfaces from 30 to 400 m
   float wall = 0;           ///< near ground in the upper half
+  float near_ground = 0;    ///< near ground in the lower half
   float far_share = 0;      ///< surfaces beyond 400 m
   float sky_above = 0;      ///< sky within the uppermost quarter
   float depth_variety = 0;  ///< entropy of the logarithm of depth, 0 to 1
