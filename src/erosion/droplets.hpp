@@ -38,13 +38,13 @@
 //
 // Scheme. Heights and sediment are integers (of about a micrometre): what leaves one is added to
 // the other, so nothing is lost. The ground is cut into square tiles in four colours (2 x 2). Tiles
-// of one colour run side by side; each moves its drops one step at a time, 16 in a vector, and may
-// write half a tile over its edge, which no tile of its colour does. Drops that go further go on in
-// the tile where they then are, when its turn comes. So drops see what those before them did, and
-// the result has the same bits for any number of threads. Rain falls in showers, one drop per cell
-// of a lattice in the world, jittered: at the same places at every resolution. After each round of
-// showers its change of the ground is spread over `radius`, as wide as with the thesis' cone of
-// weights, max(0, r - |p_i - p|), but at no cost per step.
+// of one colour run side by side; each moves its drops one step at a time, up to 32 at once, and
+// may write half a tile over its edge, which no tile of its colour does. Drops that go further go
+// on in the tile where they then are, when its turn comes. So drops see what those before them did,
+// and the result has the same bits for any number of threads. Rain falls in showers, one drop per
+// cell of a lattice in the world, jittered: at the same places at every resolution. After each
+// round of showers its change of the ground is spread over `radius`, as wide as with the thesis'
+// cone of weights, max(0, r - |p_i - p|), but at no cost per step.
 
 #include <string>
 
