@@ -156,13 +156,10 @@ PathSample trace_path(const RayScene& scene, const PathSettings& settings, const
       result.radiance += throughput * light;
       break;
     }
-    // The haze adds its own light and dims what comes from behind; through_haze is linear in the
-    // surface's light.
-    if (sky.haze().enabled()) {
-      const Vec3 clear = sky.haze().transmittance(ray.origin, ray.direction, hit.distance);
-      result.radiance +=
-          throughput * sky.through_haze(Vec3(0), ray.origin, ray.direction, hit.distance);
-      throughput *= clear;
+    if (sky.has_air()) {
+      const AirLight air = sky.air_light(ray.origin, ray.direction, hit.distance);
+      result.radiance += throughput * air.light;
+      throughput *= air.transmittance;
     }
     footprint += footprint_ratio * hit.distance;
     const SurfacePoint surface = surface_at(world, hit, ray.direction, footprint);

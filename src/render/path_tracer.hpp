@@ -5,7 +5,7 @@
 //   sky are sampled directly, and the sky also by the surface, both weighted by the power heuristic
 //   (Veach 1997, with exponent 2). The sun is found by direct sampling alone after the first
 //   surface. Russian roulette by throughput from the second bounce on. Air between surfaces by
-//   Sky::through_haze.
+//   Sky::air_light.
 
 #include "render/film.hpp"
 #include "render/ray_scene.hpp"

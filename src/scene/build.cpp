@@ -168,7 +168,7 @@ void check_scene(const Scene& scene) {
   at("water.depth", [&] { check_map(scene, scene.water.depth.path, "map", operators); });
   for (std::size_t k = 0; k < scene.covers.size(); ++k)
     at(fmt::format("cover.{}.map", k), [&] { check_cover(scene, scene.covers[k], operators); });
-  at("sky.sun", [&] { const Sky sky(scene.sky); });
+  at("sky.sun", [&] { check_sky(scene.sky); });
   for (std::size_t k = 0; k < scene.cameras.size(); ++k)
     at(fmt::format("camera.{}", k), [&] { check_camera(scene.cameras[k]); });
 }

@@ -32,18 +32,24 @@ float air_on_path(float h, float z, float distance, float scale_height) {
 
 }  // namespace
 
+Vec3 aerosol_extinction(double visibility, DVec3 wavelengths) {
+  if (!(visibility > 0))
+    throw Error(ErrorKind::input,
+                fmt::format("visibility ({} m) must be greater than 0", visibility));
+  const double at_550 =
+      std::max(0.0, 3.912 / visibility - static_cast<double>(molecules_at_zero.y));
+  const double q = kruse_exponent(visibility);
+  return at_550 * DVec3(std::pow(wavelengths.x / 550, -q), std::pow(wavelengths.y / 550, -q),
+                        std::pow(wavelengths.z / 550, -q));
+}
+
 Haze::Haze(double visibility, double scale_height) : molecules_(molecules_at_zero), enabled_(true) {
   if (!(visibility > 0) || !(scale_height > 0))
     throw Error(ErrorKind::input,
                 fmt::format("visibility ({} m) and haze height ({} m) must be greater than 0",
                             visibility, scale_height));
   aerosol_height_ = static_cast<float>(scale_height);
-  const double at_550 = std::max(0.0, 3.912 / visibility - static_cast<double>(molecules_.y));
-  const double q = kruse_exponent(visibility);
-  const auto extinction = [&](double nm) {
-    return static_cast<float>(at_550 * std::pow(nm / 550, -q));
-  };
-  aerosol_ = {extinction(680), extinction(550), extinction(440)};
+  aerosol_ = aerosol_extinction(visibility, {680, 550, 440});
 }
 
 Vec3 Haze::transmittance(Vec3 origin, Vec3 direction, float distance) const {

@@ -17,6 +17,10 @@
 
 namespace wold {
 
+/// Extinction by aerosol at height 0, 1/m, at three wavelengths in nm, for a visibility in metres.
+/// Throws Error(input) if that is not > 0.
+Vec3 aerosol_extinction(double visibility, DVec3 wavelengths);
+
 class Haze {
  public:
   /// No haze at all.

@@ -12,20 +12,26 @@
 // Preetham's sky (preetham.hpp) keeps its colours and distribution but is 0.55 times as bright, as
 // measured clear skies are (IES), and dims further as the sun sinks below 10°, through twilight as
 // measured down to a dark blue night; `sky_intensity` changes it.
+//
+// The model "atmosphere" marches through the air of a round planet (atmosphere.hpp) from
+// `eye_height`, with all orders of scattering; its aerosol is that of `visibility` and
+// `haze_height`, and the same air lies between surfaces. It has no fitted brightness.
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "base/grid.hpp"
 #include "base/parameters.hpp"
 #include "base/value.hpp"
 #include "base/vec.hpp"
+#include "sky/atmosphere.hpp"
 #include "sky/haze.hpp"
 #include "sky/sun_position.hpp"
 
 namespace wold {
 
-enum class SkyModel { preetham };
+enum class SkyModel { preetham, atmosphere };
 
 struct SkySettings {
   SkyModel model = SkyModel::preetham;
@@ -40,9 +46,16 @@ struct SkySettings {
   bool haze = true;
   float visibility = 40000;  ///< m
   float haze_height = 1200;  ///< m, over which haze thins to 1/e
+  float eye_height = 300;    ///< m
+  Atmosphere atmosphere;     ///< without aerosol and ground, which follow from the above
 };
 
 Description<SkySettings> describe(const SkySettings&);
+
+/// Throws as the constructor of Sky does, without its work.
+void check_sky(const SkySettings& settings);
+
+class AirView;
 
 /// A direction to light, what comes from there, and the density per steradian with which it was
 /// chosen; 0 when there is no light to choose.
@@ -78,14 +91,22 @@ class Sky {
   /// Of a surface at right angles to the sun, lx.
   Vec3 sun_irradiance() const { return sun_irradiance_; }
 
-  const Haze& haze() const { return haze_; }
+  /// Whether there is air to see between surfaces.
+  bool has_air() const { return haze_.enabled(); }
+  /// What `distance` metres of air from `origin` along the unit vector `direction` take and give.
+  AirLight air_light(Vec3 origin, Vec3 direction, float distance) const;
   /// What the eye at `origin` sees of a surface `distance` metres away along the unit vector
   /// `direction`, whose own radiance is `surface_radiance`.
   Vec3 through_haze(Vec3 surface_radiance, Vec3 origin, Vec3 direction, float distance) const;
 
  private:
   void set_sun(const SkySettings& settings);
+  void set_sun_light(const SkySettings& settings);
   void fill_table(const SkySettings& settings);
+  void fill_preetham(const SkySettings& settings);
+  void fill_atmosphere(const SkySettings& settings);
+  DVec3 irradiance_of_nodes() const;
+  DVec3 node_direction(int i, int j) const;
   void fill_air();
   void build_distribution();
   DVec3 cell_mean(int i, int j) const;
@@ -113,6 +134,7 @@ class Sky {
   Grid<Vec3> air_;                        // J of haze.hpp at the nodes, cd/m²
   Vec3 sky_irradiance_{0};
   Haze haze_;
+  std::shared_ptr<const AirView> view_;  // of the model "atmosphere"
 };
 
 }  // namespace wold
