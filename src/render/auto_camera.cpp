@@ -18,6 +18,7 @@ constexpr int columns = 32;
 constexpr int rows = 18;
 constexpr int upper_rows = rows / 4;
 constexpr int proposals = 480;
+constexpr int places = 8;             // tried for each proposal
 constexpr float lens_clearance = 4;   // m, within which plants are in the way
 constexpr float wall_distance = 250;  // m, within which ground above the horizon shuts the view
 constexpr float even_slope = 18;      // degrees, up to which one stands well
@@ -86,11 +87,14 @@ Camera tilted(Camera camera, float tilt) {
 
 float score_of(const ViewStatistics& v, float side_light, bool plants) {
   float score = 2.2F * bump(v.sky, 0.34F, 0.16F) + 1.2F * v.depth_variety +
-                0.9F * std::min(1.0F, v.far_share / 0.12F) +
                 0.7F * std::min(1.0F, v.skyline / 0.08F) + 0.6F * side_light + 0.8F * v.sky_above -
-                6 * v.near_share - 3 * v.wall - 3 * std::max(0.0F, v.near_ground - 0.4F);
+                6 * v.near_share - 3 * v.wall;
   if (plants)
-    score += 1.3F * bump(v.plants, 0.34F, 0.2F) + 0.6F * std::min(1.0F, v.middle_share / 0.2F);
+    score += 1.3F * bump(v.plants, 0.34F, 0.2F) + 0.6F * std::min(1.0F, v.middle_share / 0.2F) +
+             0.9F * std::min(1.0F, v.far_share / 0.12F);
+  else
+    score += 2.4F * std::min(1.0F, v.far_share / 0.35F) -  // bare land is worth its shapes
+             4 * std::max(0.0F, v.near_ground + v.wall - 0.3F);
   return score;
 }
 
@@ -112,7 +116,7 @@ class Finder {
     const float side_light = bump(glm::dot(along, sunward), -0.15F, 0.6F);
     p.landscape = shows_landscape(view, plants_);
     p.score = score_of(view, side_light, plants_) + 0.4F * height_rank(p.camera.position) -
-              std::max(0.0F, slope_at(p.camera.position) - even_slope) / 15;
+              std::max(0.0F, slope_at(DVec2(Vec2(p.camera.position))) - even_slope) / 15;
     return p;
   }
 
@@ -131,9 +135,8 @@ class Finder {
   }
 
   /// Of the ground below, degrees.
-  float slope_at(Vec3 position) const {
-    return degrees(
-        std::atan(glm::length(scene_.world().ground.base(DVec2(Vec2(position))).gradient)));
+  float slope_at(DVec2 place) const {
+    return degrees(std::atan(glm::length(scene_.world().ground.base(place).gradient)));
   }
 
   Camera proposed(int number, float height_factor) const {
@@ -142,9 +145,13 @@ class Finder {
     const double offset =
         std::min(static_cast<double>(settings_.edge_min_offset), 0.4 * std::min(size.x, size.y));
     const DVec2 room = size - 2 * offset;
-    const DVec2 place = ground.field().origin + offset +
-                        room * DVec2(static_cast<double>(random(number, 0)),
-                                     static_cast<double>(random(number, 1)));
+    DVec2 place{0};
+    for (int k = 0; k < places; ++k) {  // the first even one
+      place = ground.field().origin + offset +
+              room * DVec2(static_cast<double>(random(number, 4 + 2 * k)),
+                           static_cast<double>(random(number, 5 + 2 * k)));
+      if (slope_at(place) < even_slope) break;
+    }
     const Vec3 position(Vec2(place),
                         ground.base(place).height + settings_.look_height * height_factor);
     const float elevation = radians(std::lerp(-9.0F, 5.0F, random(number, 3)));
