@@ -148,12 +148,13 @@ PathSample trace_path(const RayScene& scene, const PathSettings& settings, const
   for (int bounce = 0;; ++bounce) {
     const Hit hit = scene.intersect(ray, 0, bounce == 0, count);
     if (!hit.valid()) {
-      Vec3 light = sky.radiance(ray.direction);
-      if (bounce == 0)
-        light += sky.sun_radiance(ray.direction);
-      else
-        light *= power_heuristic(bsdf_pdf, sky.sky_pdf(ray.direction));
-      result.radiance += throughput * light;
+      if (bounce == 0) {
+        sampler.skip_to(camera_pairs);
+        result.radiance += sky.seen(ray.origin, ray.direction, sampler.next().x);
+      } else {
+        result.radiance += throughput * sky.radiance(ray.direction) *
+                           power_heuristic(bsdf_pdf, sky.sky_pdf(ray.direction));
+      }
       break;
     }
     if (sky.has_air()) {

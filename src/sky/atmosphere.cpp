@@ -150,6 +150,22 @@ AirSpan span_in_air(const Atmosphere& a, float height, float cosine) {
   return span;
 }
 
+AirSpan span_in_layer(const Atmosphere& a, float height, float cosine, float low, float high) {
+  const Crossing top = crossing(a, height, cosine, high);
+  if (!top.meets || top.far_distance <= 0) return {};
+  AirSpan span{std::max(0.0F, top.near_distance), top.far_distance, false};
+  const Crossing base = crossing(a, height, cosine, low);
+  if (!base.meets || base.far_distance <= 0) return span;
+  if (height < low) {
+    const Crossing ground = crossing(a, std::max(height, 0.0F), cosine, 0);
+    if (ground.meets && cosine < 0) return {};
+    span.begin = base.far_distance;
+  } else {
+    span.end = std::max(span.begin, base.near_distance);
+  }
+  return span;
+}
+
 AirColumn air_column(const Atmosphere& a, float height, float cosine, float begin, float end,
                      int steps) {
   AirColumn sum(0);

@@ -104,6 +104,9 @@ struct AirSpan {
 };
 AirSpan span_in_air(const Atmosphere& atmosphere, float height, float cosine);
 
+/// Where a ray is between two heights, at first, before it meets the ground; begin = end: nowhere.
+AirSpan span_in_layer(const Atmosphere& atmosphere, float height, float cosine, float low,
+                      float high);
 /// To where the ray leaves the air, as if there were no ground; 0 when it misses the air.
 float distance_to_space(const Atmosphere& atmosphere, float height, float cosine);
 

@@ -24,6 +24,7 @@ constexpr double sun_diameter = 0.53;  // degrees, for which sunlight is compute
 // 0.8 + 15.5 √sin(elevation) klx of the IES Lighting Handbook within 20 % at turbidity 2.5.
 constexpr double measured_share = 0.55;
 constexpr double haze_over_plain = 0.03;  // optical depth straight down: eye 300 m up, 10 km of air
+constexpr float farthest_cloud = 1.2e5F;  // m
 constexpr double night_luminance = 1e-3;  // cd/m², stars and airglow, rather bright
 constexpr DVec3 night_colour{0.55, 0.85, 3.8};  // luminance 1
 
@@ -75,10 +76,9 @@ Atmosphere atmosphere_of(const SkySettings& settings) {
   return a;
 }
 
-DVec3 sun_through_atmosphere(const SkySettings& settings, float sine) {
+DVec3 sun_through_atmosphere(const SkySettings& settings, float height, float sine) {
   constexpr int steps = 128;
-  return sun_in_space() *
-         DVec3(sun_transmittance(atmosphere_of(settings), settings.eye_height, sine, steps));
+  return sun_in_space() * DVec3(sun_transmittance(atmosphere_of(settings), height, sine, steps));
 }
 
 DVec3 night_sky(double sun_elevation) {
@@ -135,7 +135,8 @@ Description<SkySettings> describe(const SkySettings&) {
            "Height over which haze thins to 1/e.")
       .add("eye_height", &SkySettings::eye_height, {.unit = "m", .min = 0, .max = 1e8},
            "Of model atmosphere, the height from which the sky is seen; beyond 100 km from space.")
-      .include(&SkySettings::atmosphere);
+      .include(&SkySettings::atmosphere)
+      .include(&SkySettings::clouds);
 }
 
 void check_sky(const SkySettings& settings) {
@@ -148,6 +149,7 @@ Sky::Sky(const SkySettings& settings) {
   set_sun(settings);
   set_sun_light(settings);
   fill_table(settings);
+  if (settings.clouds.coverage > 0) add_clouds(settings);
   build_distribution();
 }
 
@@ -163,8 +165,9 @@ void Sky::set_sun_light(const SkySettings& settings) {
   const double radius = 0.5 * radians(static_cast<double>(settings.sun_size));
   const DVec3 irradiance =
       static_cast<double>(settings.sun_intensity) *
-      (settings.model == SkyModel::atmosphere ? sun_through_atmosphere(settings, sun_direction_.z)
-                                              : sun_by_turbidity(settings, sun_elevation_));
+      (settings.model == SkyModel::atmosphere
+           ? sun_through_atmosphere(settings, settings.eye_height, sun_direction_.z)
+           : sun_by_turbidity(settings, sun_elevation_));
   const DVec3 exponent = limb_darkening_exponent();
   limb_exponent_ = exponent;
   sun_irradiance_ = irradiance;
@@ -256,6 +259,56 @@ void Sky::fill_air() {
       air_(i, j) =
           j <= horizon ? nodes_(i, horizon) : nodes_(i, j) / glm::max(Vec3(1) - whole, Vec3(1e-4F));
   });
+}
+
+void Sky::add_clouds(const SkySettings& settings) {
+  constexpr CloudSteps steps{32, 6};
+  const Clouds& c = settings.clouds;
+  clouds_ = std::make_shared<const CloudLayer>(c);
+  planet_ = atmosphere_of(settings);
+  // The sky from above, sunlit ground from below.
+  const Vec3 on_ground = sky_irradiance_ + std::max(0.0F, sun_direction_.z) * sun_irradiance_;
+  sky_on_clouds_ = (sky_irradiance_ + settings.ground_albedo * on_ground) / (2 * pi);
+  sun_on_clouds_ = sun_irradiance_;
+  if (view_)
+    sun_on_clouds_ =
+        static_cast<double>(settings.sun_intensity) *
+        sun_through_atmosphere(settings, c.height + 0.5F * c.thickness, sun_direction_.z);
+
+  const Vec3 eye{0, 0, settings.eye_height};
+  clear_ = nodes_;
+  parallel_for(horizon, cell_rows + 1, [&](int j) {
+    for (int i = 0; i < columns; ++i)
+      nodes_(i, j) = behind_clouds(clear_(i, j), eye, Vec3(node_direction(i, j)), 0.5F, steps);
+  });
+  sky_irradiance_ = irradiance_of_nodes();
+  sunlit_ = clouds_->transmittance(planet_, DVec2(0),
+                                   air_ray(planet_, eye, sun_direction_, sun_direction_),
+                                   sun_direction_, INFINITY, 4 * steps.along);
+  sun_irradiance_ *= sunlit_;
+  sun_centre_radiance_ *= sunlit_;
+  sun_visible_ = sun_visible_ && sunlit_ > 1e-4F;
+}
+
+Vec3 Sky::behind_clouds(Vec3 light, Vec3 origin, Vec3 direction, float u, CloudSteps steps) const {
+  const AirRay ray = air_ray(planet_, origin, direction, sun_direction_);
+  const Clouds& c = clouds_->clouds();
+  const AirSpan span =
+      span_in_layer(planet_, ray.height, ray.cosine, c.height, c.height + c.thickness);
+  if (!(span.end > span.begin)) return light;
+  const CloudLight clouds =
+      clouds_->seen(planet_, DVec2(origin.x, origin.y), ray, direction, sun_direction_,
+                    farthest_cloud, sun_on_clouds_, sky_on_clouds_, u, steps);
+  const AirLight air = air_light(origin, direction, span.begin);
+  return light * clouds.transmittance + clouds.light * air.transmittance +
+         air.light * (1 - clouds.transmittance);
+}
+
+Vec3 Sky::seen(Vec3 origin, Vec3 direction, float u) const {
+  if (!clouds_) return radiance(direction) + sun_radiance(direction);
+  const Vec3 light = interpolated(clear_, direction) + sun_radiance(direction) / sunlit_;
+  constexpr CloudSteps steps{24, 4};  // many rays share a pixel
+  return behind_clouds(light, origin, direction, u, steps);
 }
 
 DVec3 Sky::cell_mean(int i, int j) const {

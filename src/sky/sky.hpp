@@ -16,6 +16,10 @@
 // The model "atmosphere" marches through the air of a round planet (atmosphere.hpp) from
 // `eye_height`, with all orders of scattering; its aerosol is that of `visibility` and
 // `haze_height`, and the same air lies between surfaces. It has no fitted brightness.
+//
+// Clouds, of either model, are in the table with the sky; for the camera they are marched ray by
+// ray. They cast no shadows on the land, but a sun behind a cloud (from the middle of the world)
+// shines on nothing.
 
 #include <cstdint>
 #include <memory>
@@ -26,6 +30,7 @@
 #include "base/value.hpp"
 #include "base/vec.hpp"
 #include "sky/atmosphere.hpp"
+#include "sky/clouds.hpp"
 #include "sky/haze.hpp"
 #include "sky/sun_position.hpp"
 
@@ -48,6 +53,7 @@ struct SkySettings {
   float haze_height = 1200;  ///< m, over which haze thins to 1/e
   float eye_height = 300;    ///< m
   Atmosphere atmosphere;     ///< without aerosol and ground, which follow from the above
+  Clouds clouds{.coverage = 0};
 };
 
 Description<SkySettings> describe(const SkySettings&);
@@ -72,6 +78,9 @@ class Sky {
 
   /// The sky without the sun's disc, cd/m². Any unit vector.
   Vec3 radiance(Vec3 direction) const;
+  /// What the camera sees where no surface is: sky, sun and clouds, these with more detail than
+  /// `radiance` has. `u` in [0, 1) is random.
+  Vec3 seen(Vec3 origin, Vec3 direction, float u) const;
   /// Chosen by luminance; directions below the horizon are chosen more seldom than their
   /// luminance asks for.
   SkySample sample_sky(Vec2 u) const;
@@ -108,6 +117,8 @@ class Sky {
   DVec3 irradiance_of_nodes() const;
   DVec3 node_direction(int i, int j) const;
   void fill_air();
+  void add_clouds(const SkySettings& settings);
+  Vec3 behind_clouds(Vec3 light, Vec3 origin, Vec3 direction, float u, CloudSteps steps) const;
   void build_distribution();
   DVec3 cell_mean(int i, int j) const;
 
@@ -135,6 +146,12 @@ class Sky {
   Vec3 sky_irradiance_{0};
   Haze haze_;
   std::shared_ptr<const AirView> view_;  // of the model "atmosphere"
+  Grid<Vec3> clear_;                     // the nodes without clouds, when there are any
+  std::shared_ptr<const CloudLayer> clouds_;
+  Atmosphere planet_;
+  Vec3 sun_on_clouds_{0};  // lx
+  Vec3 sky_on_clouds_{0};  // mean radiance around them, cd/m²
+  float sunlit_ = 1;       // part of the sun's light that clouds let through to the land
 };
 
 }  // namespace wold

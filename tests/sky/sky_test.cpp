@@ -269,7 +269,7 @@ TEST(Sky, SaysWhatIsWrongWithASun) {
 TEST(Sky, DescriptionNamesEveryParameterAndRefusesAWrongTurbidity) {
   SkySettings settings;
   const ParameterSet set = describe(settings);
-  EXPECT_EQ(set.parameters.size(), 17U);
+  EXPECT_EQ(set.parameters.size(), 29U);
   set.assign(&settings, "sun", std::vector<double>{12, 90});
   EXPECT_EQ(settings.sun.size(), 2U);
   EXPECT_THROW(set.assign(&settings, "turbidity", 1.0), Error);
