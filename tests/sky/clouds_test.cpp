@@ -124,6 +124,27 @@ TEST(Clouds, ThinEvenCloudFollowsBeerAndItsPhase) {
   EXPECT_NEAR(light.light.x / (2e-4F / 3e-4F * p * depth * std::exp(-depth)), 1, 0.01F);
 }
 
+TEST(Clouds, EachFurtherOrderHasHalfTheLightAndHalfTheDepth) {
+  Clouds clouds = solid();
+  clouds.scattering = 0.02F;
+  clouds.absorption = 0;
+  const Atmosphere a;
+  const AirRay up{0, 1, 1, 1};
+  const Vec3 zenith{0, 0, 1};
+  const auto seen = [&](int orders) {
+    clouds.orders = orders;
+    return CloudLayer(clouds).seen(a, {0, 0}, up, zenith, zenith, INFINITY, Vec3(1), Vec3(0), 0.5F,
+                                   {300, 100});
+  };
+  const CloudLight once = seen(1);
+  const float depth = -std::log(once.transmittance);
+  ASSERT_GT(depth, 0.7F);
+  // Sun and eye in line: ∫ e^-t e^-((τ - t) / 2) dt.
+  const float half = std::exp(-depth / 2);
+  const float p = double_henyey_greenstein(1, 0.35F, -0.25F, 0.3F);
+  EXPECT_NEAR((seen(2).light.x - once.light.x) / (0.5F * p * 2 * half * (1 - half)), 1, 0.02F);
+}
+
 TEST(Clouds, EvenLightFromAroundIsNeverExceeded) {
   Clouds clouds;
   clouds.coverage = 0.9F;
