@@ -52,8 +52,8 @@
 // the dam within 1 %; bores (Stoker 1957) run at their speed. Without it, a river down a slope S >
 // 4/9 c breaks into rolling waves, as its floods (3/2 v) outrun its waves (sqrt(g d)): ripples in
 // fans. With it, as in nature, only one of S > 4 c does (3/2 v > v + sqrt(g d)). It takes a quarter
-// more time a step, and up to 1.6 times as many steps; where nothing rolls, land and rivers come out
-// much the same.
+// more time a step, and up to 1.6 times as many steps; where nothing rolls, land and rivers come
+// out much the same.
 //
 // Steps: Δt <= 0.9 l / (√2 max(sqrt(g pipe_depth), 3/2 top_speed)): neither a wave in water of
 // `pipe_depth` nor a flood (which moves at 3/2 of its speed) crosses a cell in both directions in a

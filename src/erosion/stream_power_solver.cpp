@@ -12,6 +12,7 @@ namespace {
 
 constexpr int tabled_counts = 8192;
 constexpr double rain_unit = 256;
+constexpr int visits_between_reports = 1 << 14;
 constexpr float stream_area = 2000;  // m², from which sediment is laid down
 constexpr float rests_up_to = 0.7F;  // of the talus slope; sediment does not rest on steeper ground
 
@@ -108,6 +109,7 @@ void StreamPowerSolver::find_directions(const Grid<float>& height) {
 template <class Amount>
 void StreamPowerSolver::find_order(Grid<Amount>& amounts) {
   order_.build(direction_, amounts.values(), progress_);
+  progress_.advance(0);
 }
 
 template <class AreaPower>
@@ -134,6 +136,7 @@ void StreamPowerSolver::erode(Grid<float>& height, double years, const AreaPower
   const double n = law_.slope_exponent;
   order_.downstream_first([&](int k) {
     const int d = direction[k];
+    if (k % visits_between_reports == 0) progress_.advance(0);
     if (load != nullptr) load[k] = 0;
     if (d == flow_leaves) return;
     const float raised = h[k] + uplift[k] * static_cast<float>(years);
@@ -167,6 +170,7 @@ void StreamPowerSolver::deposit(Grid<float>& height, const AreaOf& area_of) {
   const auto cell_area = static_cast<float>(cell_ * cell_);
   const auto share = static_cast<float>(law_.deposition);
   order_.upstream_first([&](int k) {
+    if (k % visits_between_reports == 0) progress_.advance(0);
     double& load = load_.values()[at(k)];  // eroded here so far
     float& h = height.values()[at(k)];
     float& lies = sediment_.values()[at(k)];
