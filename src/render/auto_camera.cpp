@@ -148,8 +148,8 @@ class Finder {
     DVec2 place{0};
     for (int k = 0; k < places; ++k) {  // the first even one
       place = ground.field().origin + offset +
-              room * DVec2(static_cast<double>(random(number, 4 + 2 * k)),
-                           static_cast<double>(random(number, 5 + 2 * k)));
+              room * DVec2(static_cast<double>(random(number, 4 * k)),
+                           static_cast<double>(random(number, 4 * k + 1)));
       if (slope_at(place) < even_slope) break;
     }
     const Vec3 position(Vec2(place),
