@@ -49,13 +49,14 @@ Heightfield lattice_over(const Corners& corners, const TerrainDomain& domain, do
           domain.origin + cell * first, cell};
 }
 
-/// What of `input` lies over `grid`.
+/// What of `input` lies over `grid`; at least the samples nearest to it.
 Heightfield part_over(const Heightfield& input, const Heightfield& grid) {
-  const auto first =
-      glm::max(IVec2(0), IVec2(glm::round((grid.origin - input.origin) / input.cell)));
-  const auto last =
-      glm::min(IVec2(input.height.width() - 1, input.height.height() - 1),
-               IVec2(glm::round((grid.origin + grid.size() - input.origin) / input.cell)));
+  const IVec2 most(input.height.width() - 1, input.height.height() - 1);
+  const auto sample_at = [&](DVec2 place) {
+    return glm::clamp(IVec2(glm::round((place - input.origin) / input.cell)), IVec2(0), most);
+  };
+  const IVec2 first = sample_at(grid.origin);
+  const IVec2 last = sample_at(grid.origin + grid.size());
   Heightfield part{Grid<float>(last.x - first.x + 1, last.y - first.y + 1),
                    place_of(input, first.x, first.y), input.cell};
   for (int j = 0; j < part.height.height(); ++j)

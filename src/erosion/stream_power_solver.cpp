@@ -164,8 +164,7 @@ void StreamPowerSolver::erode(Grid<float>& height, double years, const AreaPower
   });
 }
 
-template <class AreaOf>
-void StreamPowerSolver::deposit(Grid<float>& height, const AreaOf& area_of) {
+void StreamPowerSolver::deposit(Grid<float>& height) {
   const int w = height.width();
   const auto cell_area = static_cast<float>(cell_ * cell_);
   const auto share = static_cast<float>(law_.deposition);
@@ -184,7 +183,7 @@ void StreamPowerSolver::deposit(Grid<float>& height, const AreaOf& area_of) {
     if (d >= flow_stops) return;
     const float spill = height.values()[at(k + flow_step(d, w))];
     const auto distance = static_cast<float>(cell_ * flow_distance(d));
-    const float area = area_of(k);
+    const float area = area_at(k);
     if (area < stream_area) return;
     if (h - spill > rests_up_to * ground_.talus.values()[at(k)] * distance) return;
     const float room = spill > h ? spill - h : std::max(0.0F, 0.5F * (lowest_donor - h));
@@ -228,26 +227,21 @@ void StreamPowerSolver::step(Grid<float>& height, double years) {
   progress_.advance(0);
   if (law_.deposition > 0) {
     if (sediment_.empty()) sediment_ = Grid<float>(height.width(), height.height(), 0);
-    if (ground_.rain.empty())
-      deposit(height,
-              [&](int k) { return static_cast<float>(count_.values()[at(k)] * cell_area); });
-    else
-      deposit(height, [&](int k) {
-        return static_cast<float>(static_cast<double>(rain_.values()[at(k)]) * cell_area /
-                                  rain_unit);
-      });
+    deposit(height);
     progress_.advance(0);
   }
   diffuse(height, law_.diffusivity * years / cell_area, {}, progress_);
 }
 
+float StreamPowerSolver::area_at(int k) const {
+  const double samples = rain_.empty() ? count_.values()[at(k)]
+                                       : static_cast<double>(rain_.values()[at(k)]) / rain_unit;
+  return static_cast<float>(samples * cell_ * cell_);
+}
+
 Grid<float> StreamPowerSolver::area() const {
   Grid<float> out(direction_.width(), direction_.height());
-  const double cell_area = cell_ * cell_;
-  for (std::size_t k = 0; k < out.size(); ++k)
-    out.values()[k] = static_cast<float>(rain_.empty() ? count_.values()[k] * cell_area
-                                                       : static_cast<double>(rain_.values()[k]) *
-                                                             cell_area / rain_unit);
+  for (std::size_t k = 0; k < out.size(); ++k) out.values()[k] = area_at(static_cast<int>(k));
   return out;
 }
 

@@ -83,6 +83,8 @@ class StreamPowerSolver {
   void find_order(Grid<Amount>& amounts);
   template <class AreaPower>
   void erode(Grid<float>& height, double years, const AreaPower& area_power);
+  void deposit(Grid<float>& height);
+  float area_at(int k) const;  ///< m²
 
   double cell_;
   StreamPowerLaw law_;
@@ -97,8 +99,6 @@ class StreamPowerSolver {
   Grid<std::uint8_t> direction_;
   FlowOrder order_;
   PitRouter router_;
-  template <class AreaOf>
-  void deposit(Grid<float>& height, const AreaOf& area_of);
 
   Grid<double> load_;          ///< carried by the streams in the last step, m over a sample
   Grid<float> sediment_;       ///< m

@@ -247,6 +247,18 @@ TEST(StreamPowerLevels, LieWhereTheyLieWhateverTheResolution) {
   }
 }
 
+TEST(StreamPowerLevels, StripsBetweenTheLinesOfTheLatticeAreGroundToo) {
+  const TerrainDomain domain{{0, 0}, {1000, 1000}};
+  Progress progress;
+  for (const double south : {-400.0, 508.0, 2000.0}) {
+    const Heightfield strip = field_of(201, 2, 5, {0, south}, [](DVec2 p) { return p.x + p.y; });
+    for (const StreamPowerLevel& level : stream_power_levels(strip, domain, 1000, 1, progress)) {
+      ASSERT_GE(level.ground.height.height(), 2);
+      for (const float h : level.ground.height.values()) ASSERT_TRUE(std::isfinite(h));
+    }
+  }
+}
+
 TEST(StreamPower, IsTheSameForAnyNumberOfThreads) {
   expect_same_for_any_threads(
       [] { return run(stream_power, rough(200, 300, 10), StreamPower{.years = 1e5F}); });
