@@ -2,9 +2,9 @@
 // A camera that finds itself a view.
 //
 // Places and directions are proposed by hashes of the seed; each is tried with a few hundred rays
-// and judged as a photographer would: the horizon in the frame, nothing at the lens, near, middle
-// and far ground, plants where there are any, light from the side rather than from ahead or behind.
-// The best proposal wins, so the same scene and seed give the same view.
+// and judged as a photographer would: even ground to stand on, the horizon in the frame, nothing at
+// the lens, near, middle and far ground, plants where there are any, light from the side rather
+// than from ahead or behind. The best proposal wins, so the same scene and seed give the same view.
 
 #include <cstdint>
 #include <string>
