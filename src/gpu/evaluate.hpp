@@ -1,0 +1,20 @@
+#pragma once
+// A function of GLSL at many points: what the tests use to compare shaders with their C++ twins.
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/vec.hpp"
+#include "shaders/assembly.hpp"
+
+namespace wold {
+
+/// `body` is GLSL that may include files and defines `vec4 evaluate(vec4 a, vec4 b)`; it is called
+/// with a[k] and b[k] (b may be empty: zero). Bits of unsigned integers may travel as floats
+/// (uintBitsToFloat) as long as they are no NaN. Throws as GpuProgram.
+std::vector<Vec4> evaluate_shader(std::string_view body, std::span<const Vec4> a,
+                                  std::span<const Vec4> b = {},
+                                  std::span<const ShaderDefine> defines = {});
+
+}  // namespace wold
