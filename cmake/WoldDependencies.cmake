@@ -15,6 +15,10 @@ pkg_check_modules(HIGHWAY REQUIRED IMPORTED_TARGET libhwy)
 # By pkg-config: Debian's CMake package of OpenImageIO also wants its command-line tools.
 pkg_check_modules(OPENIMAGEIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
+# Real time. epoxy and GLFW find the drivers when the program runs: nothing here links to them.
+pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
+pkg_check_modules(GLFW REQUIRED IMPORTED_TARGET glfw3)
+pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
 find_path(WOLD_TINYGLTF_INCLUDE tiny_gltf.h PATH_SUFFIXES tinygltf REQUIRED)
 find_library(WOLD_TINYGLTF_LIBRARY tinygltf REQUIRED)
 
@@ -37,3 +41,6 @@ target_link_libraries(wold_embree INTERFACE embree)
 add_library(wold_tinygltf INTERFACE)
 target_include_directories(wold_tinygltf SYSTEM INTERFACE ${WOLD_TINYGLTF_INCLUDE})
 target_link_libraries(wold_tinygltf INTERFACE ${WOLD_TINYGLTF_LIBRARY})
+
+add_library(wold_imgui INTERFACE)
+target_link_libraries(wold_imgui INTERFACE PkgConfig::IMGUI)

@@ -33,3 +33,16 @@ function(wold_example_scene name file)
                  @ONLY)
   target_sources(wold_${name} PRIVATE ${CMAKE_BINARY_DIR}/generated/example.cpp)
 endfunction()
+
+# wold_shaders(NAME FOLDER): builds every *.glsl below FOLDER into the library wold_NAME, as text.
+function(wold_shaders name folder)
+  file(GLOB_RECURSE files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.glsl)
+  set(output ${CMAKE_BINARY_DIR}/generated/shader_files.cpp)
+  set(script ${CMAKE_SOURCE_DIR}/cmake/EmbedShaders.cmake)
+  add_custom_command(
+    OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -D FOLDER=${CMAKE_SOURCE_DIR}/${folder} -D OUTPUT=${output} -P ${script}
+    DEPENDS ${files} ${script}
+    COMMENT "Building the shaders in")
+  target_sources(wold_${name} PRIVATE ${output})
+endfunction()

@@ -62,9 +62,6 @@ struct TargetKind {
 struct VertexArrayKind {
   static void end(unsigned id);
 };
-struct QueryKind {
-  static void end(unsigned id);
-};
 
 /// Throws Error(internal) that names `doing` if OpenGL reports an error, Error(limit) if it is out
 /// of memory.
