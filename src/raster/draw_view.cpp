@@ -67,7 +67,7 @@ void DrawView::apply(const GpuProgram& program) const {
   program.set("pixel_angle", pixel_angle);
 }
 
-DrawView camera_view(const Camera& camera, int width, int height, float nearest) {
+DrawView camera_view(const Camera& camera, int width, int height, float nearest, Vec2 jitter) {
   const float longer = std::tan(0.5F * radians(camera.field_of_view));
   const auto w = static_cast<float>(width);
   const auto h = static_cast<float>(height);
@@ -76,6 +76,8 @@ DrawView camera_view(const Camera& camera, int width, int height, float nearest)
   Mat4 projection(0);
   projection[0][0] = 1 / half_width;
   projection[1][1] = 1 / half_height;
+  projection[2][0] = -2 * jitter.x / w;
+  projection[2][1] = -2 * jitter.y / h;
   projection[2][3] = -1;
   projection[3][2] = nearest;
   DrawView view;
@@ -83,6 +85,12 @@ DrawView camera_view(const Camera& camera, int width, int height, float nearest)
   view.eye = camera.position;
   view.pixel_angle = 2 * half_width / w;
   view.planes = planes_of(view.view_projection);
+  const Vec3 side = glm::normalize(glm::cross(camera.direction, camera.up));
+  view.right = half_width * side;
+  view.above = half_height * glm::cross(side, camera.direction);
+  view.forward =
+      camera.direction - (2 * jitter.x / w) * view.right - (2 * jitter.y / h) * view.above;
+  view.nearest = nearest;
   return view;
 }
 
@@ -101,10 +109,21 @@ DrawView shadow_view(const DrawView& camera, Vec3 centre, Vec3 towards_light, Ve
   return view;
 }
 
+namespace {
+bool has_clip_control() {
+  return epoxy_is_desktop_gl() &&
+         (epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_ARB_clip_control"));
+}
+}  // namespace
+
+Vec2 stored_depth_range() {
+  return has_clip_control() ? Vec2(0, 1) : Vec2(-1, 2);
+}
+
 bool use_reversed_depth() {
   glDepthFunc(GL_GEQUAL);
-  glClearDepth(0);
-  const bool exact = epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_ARB_clip_control");
+  glClearDepthf(0);
+  const bool exact = has_clip_control();
   if (exact) glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   return exact;
 }

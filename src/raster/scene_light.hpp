@@ -1,10 +1,13 @@
 #pragma once
-// The light of a scene for everything that is drawn: sun with its shadows, sky from all around,
-// and the air between surface and eye. One set of textures and uniforms, that of
-// "raster/light.glsl".
+// The light of a scene for everything that is drawn: sun with its shadows, and sky from all around.
+// One set of textures and uniforms, that of "raster/light.glsl".
+
+#include <array>
 
 #include "gpu/objects.hpp"
+#include "raster/canopy_shade.hpp"
 #include "raster/draw_view.hpp"
+#include "raster/shadow_maps.hpp"
 #include "sky/sky.hpp"
 
 namespace wold {
@@ -12,17 +15,38 @@ namespace wold {
 /// Texture units 8 and up belong to the light; 0 to 7 are free for what is drawn.
 inline constexpr int first_light_unit = 8;
 
+/// Irradiance in lx of a surface by its direction, as nine spherical harmonics with the constants
+/// of the cosine and of the bands in them: Ramamoorthi, Hanrahan, SIGGRAPH 2001.
+std::array<Vec3, 9> sky_harmonics(const Sky& sky);
+
 class SceneLight {
  public:
-  explicit SceneLight(const Sky& sky);
+  explicit SceneLight(Sky sky, const ShadowSettings& shadows = {});
+
+  /// The moment changes.
+  void set_sky(Sky sky);
+  void set_canopy(const CanopyShade& canopy);
+  ShadowMaps& shadows() { return shadows_; }
+  /// Turns the samples of shadows; another number for each frame.
+  void set_frame(int frame) { frame_ = frame; }
 
   /// Sets the uniforms and textures of "raster/light.glsl" of a program that includes it.
   void apply(const GpuProgram& program) const;
 
-  const Sky& sky() const { return *sky_; }
+  const Sky& sky() const { return sky_; }
+  const GpuTexture& sky_table() const { return table_; }
 
  private:
-  const Sky* sky_;
+  Sky sky_;
+  std::array<Vec3, 9> harmonics_{};
+  GpuTexture table_;
+  GpuTexture canopy_map_;
+  Vec4 canopy_place_{0};
+  ShadowMaps shadows_;
+  int frame_ = 0;
 };
+
+/// A table of class Sky as a texture.
+GpuTexture sky_texture(const Grid<Vec3>& nodes);
 
 }  // namespace wold

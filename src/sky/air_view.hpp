@@ -31,6 +31,9 @@ class AirView {
   /// The air on `distance` metres (may be infinite) from `origin` (world, m) along the unit vector
   /// `direction`.
   AirLight between(Vec3 origin, Vec3 direction, float distance) const;
+  /// Light at heights that grow from 0 to the top of the air with the square of the index, times
+  /// the sun's illuminance outside: what `between` looks up.
+  const std::vector<LightInAir>& light_by_height() const { return heights_; }
 
  private:
   Vec3 ground_radiance(float sun_cosine) const;
@@ -43,7 +46,7 @@ class AirView {
   Vec3 sun_illuminance_;
   float eye_height_;
   Vec3 sky_on_ground_{0};  // irradiance by the sky where the sun stands as over the eye, lx
-  std::vector<LightInAir> heights_;  // at heights that grow with the square of the index
+  std::vector<LightInAir> heights_;
 };
 
 }  // namespace wold

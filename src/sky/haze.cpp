@@ -11,7 +11,7 @@ namespace wold {
 
 namespace {
 
-constexpr float molecules_height = 8000;  // m
+constexpr float molecules_scale = 8000;  // m
 /// Scattering by molecules at 680, 550, 440 nm, 1/m.
 constexpr Vec3 molecules_at_zero{5.8e-6F, 13.5e-6F, 33.1e-6F};
 
@@ -52,10 +52,14 @@ Haze::Haze(double visibility, double scale_height) : molecules_(molecules_at_zer
   aerosol_ = aerosol_extinction(visibility, {680, 550, 440});
 }
 
+float Haze::molecules_height() {
+  return molecules_scale;
+}
+
 Vec3 Haze::transmittance(Vec3 origin, Vec3 direction, float distance) const {
   if (!enabled_ || !(distance > 0)) return Vec3(1);
   const float d = std::min(distance, 1e9F);
-  const Vec3 depth = molecules_ * air_on_path(origin.z, direction.z, d, molecules_height) +
+  const Vec3 depth = molecules_ * air_on_path(origin.z, direction.z, d, molecules_scale) +
                      aerosol_ * air_on_path(origin.z, direction.z, d, aerosol_height_);
   return {std::exp(-depth.x), std::exp(-depth.y), std::exp(-depth.z)};
 }

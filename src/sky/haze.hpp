@@ -29,6 +29,11 @@ class Haze {
   Haze(double visibility, double scale_height);
 
   bool enabled() const { return enabled_; }
+  /// Extinction at height 0, 1/m, and the heights over which it falls to 1/e, m.
+  Vec3 molecules() const { return molecules_; }
+  Vec3 aerosol() const { return aerosol_; }
+  float aerosol_height() const { return aerosol_height_; }
+  static float molecules_height();
   /// Part of the light that passes `distance` metres (may be infinite) from `origin` (m, world)
   /// along the unit vector `direction`; per colour, in [0, 1].
   Vec3 transmittance(Vec3 origin, Vec3 direction, float distance) const;

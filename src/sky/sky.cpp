@@ -178,6 +178,7 @@ void Sky::set_sun_light(const SkySettings& settings) {
 }
 
 void Sky::fill_table(const SkySettings& settings) {
+  planet_ = atmosphere_of(settings);
   nodes_ = Grid<Vec3>(columns, cell_rows + 1);
   row_sine_.resize(cell_rows + 1);
   column_azimuth_.resize(columns + 1);
@@ -265,7 +266,6 @@ void Sky::add_clouds(const SkySettings& settings) {
   constexpr CloudSteps steps{32, 6};
   const Clouds& c = settings.clouds;
   clouds_ = std::make_shared<const CloudLayer>(c);
-  planet_ = atmosphere_of(settings);
   // The sky from above, sunlit ground from below.
   const Vec3 on_ground = sky_irradiance_ + std::max(0.0F, sun_direction_.z) * sun_irradiance_;
   sky_on_clouds_ = (sky_irradiance_ + settings.ground_albedo * on_ground) / (2 * pi);
@@ -309,6 +309,23 @@ Vec3 Sky::seen(Vec3 origin, Vec3 direction, float u) const {
   const Vec3 light = interpolated(clear_, direction) + sun_radiance(direction) / sunlit_;
   constexpr CloudSteps steps{24, 4};  // many rays share a pixel
   return behind_clouds(light, origin, direction, u, steps);
+}
+
+SkyParts Sky::parts() const {
+  SkyParts parts;
+  parts.radiance = &nodes_;
+  parts.behind_clouds = clouds_ ? &clear_ : &nodes_;
+  parts.air = air_.empty() ? nullptr : &air_;
+  parts.haze = &haze_;
+  parts.air_view = view_.get();
+  parts.clouds = clouds_.get();
+  parts.planet = planet_;
+  parts.sun_on_clouds = sun_on_clouds_;
+  parts.sky_on_clouds = sky_on_clouds_;
+  parts.sun_centre = sun_centre_radiance_ / std::max(sunlit_, 1e-6F);
+  parts.limb_exponent = limb_exponent_;
+  parts.sun_chord = sun_chord_;
+  return parts;
 }
 
 DVec3 Sky::cell_mean(int i, int j) const {

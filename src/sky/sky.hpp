@@ -63,6 +63,23 @@ void check_sky(const SkySettings& settings);
 
 class AirView;
 
+/// What a shader needs to see the sky as class Sky does; points into the Sky it came from. Tables
+/// have the coordinates of sky_table.hpp.
+struct SkyParts {
+  const Grid<Vec3>* radiance = nullptr;       ///< cd/m², clouds among it
+  const Grid<Vec3>* behind_clouds = nullptr;  ///< the same without clouds
+  const Grid<Vec3>* air = nullptr;            ///< J of haze.hpp; nullptr without haze or preetham
+  const Haze* haze = nullptr;
+  const AirView* air_view = nullptr;    ///< of model "atmosphere"
+  const CloudLayer* clouds = nullptr;   ///< nullptr where there are none
+  Atmosphere planet;                    ///< the clouds' and the air's
+  Vec3 sun_on_clouds{0};                ///< lx
+  Vec3 sky_on_clouds{0};                ///< cd/m²
+  Vec3 sun_centre{0};                   ///< cd/m², outside clouds
+  Vec3 limb_exponent{0};
+  float sun_chord = 0;  ///< between unit vectors to the centre and the limb
+};
+
 /// A direction to light, what comes from there, and the density per steradian with which it was
 /// chosen; 0 when there is no light to choose.
 struct SkySample {
@@ -99,6 +116,8 @@ class Sky {
   float sun_pdf(Vec3 direction) const;
   /// Of a surface at right angles to the sun, lx.
   Vec3 sun_irradiance() const { return sun_irradiance_; }
+
+  SkyParts parts() const;
 
   /// Whether there is air to see between surfaces.
   bool has_air() const { return haze_.enabled(); }

@@ -1,0 +1,120 @@
+#include "raster/canopy_shade.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wold {
+
+namespace {
+
+constexpr double cell_size = 3;  // m
+constexpr int most_cells = 1024;
+
+/// The crown of a model, in its own metres.
+struct Crown {
+  float leaf_area = 0;
+  float radius = 0;
+  float foot = 0;
+  float top = 0;
+};
+
+Crown crown_of(const Model& model, const std::vector<SurfaceMaterial>& materials) {
+  Crown crown;
+  crown.top = model.mesh.bounds().high.z;
+  double area = 0;
+  double foot_sum = 0;
+  double spread = 0;
+  const auto& mesh = model.mesh;
+  for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
+    if (materials[model.part_materials[p]].settings().transmission == Vec3(0)) continue;
+    const std::size_t end =
+        p + 1 < mesh.parts.size() ? mesh.parts[p + 1].first_triangle : mesh.triangles.size();
+    for (std::size_t t = mesh.parts[p].first_triangle; t < end; ++t) {
+      const UVec3 corner = mesh.triangles[t];
+      const Vec3 a = mesh.positions[corner.x];
+      const Vec3 b = mesh.positions[corner.y];
+      const Vec3 c = mesh.positions[corner.z];
+      const double part = 0.5 * static_cast<double>(glm::length(glm::cross(b - a, c - a)));
+      area += part;
+      foot_sum += part * static_cast<double>(a.z);
+      spread += part * static_cast<double>(a.x * a.x + a.y * a.y);
+    }
+  }
+  if (!(area > 0)) return crown;
+  crown.leaf_area = static_cast<float>(area);
+  // A disc's mean square distance is half the square of its radius.
+  crown.radius = static_cast<float>(std::sqrt(2 * spread / area));
+  const auto middle = static_cast<float>(foot_sum / area);
+  crown.foot = std::max(0.0F, 2 * middle - crown.top);
+  return crown;
+}
+
+struct Cells {
+  DVec2 low{0};
+  double cell = 1;
+  int width = 0;
+  int height = 0;
+  std::vector<float> area;  // m² of leaves over each cell
+  std::vector<float> foot;  // weighted by area
+  std::vector<float> top;
+};
+
+/// Adds a crown as a disc, spread evenly over the cells whose middle it covers.
+void add_crown(Cells& cells, const Crown& crown, const ModelInstance& plant) {
+  const double r = std::max(cells.cell, static_cast<double>(crown.radius * plant.scale));
+  const DVec2 at = (DVec2(plant.position.x, plant.position.y) - cells.low) / cells.cell;
+  const double reach = r / cells.cell;
+  const auto within = [](double x, int count) {
+    return std::clamp(static_cast<int>(std::floor(x)), 0, count - 1);
+  };
+  const int i1 = within(at.x + reach, cells.width);
+  const int j1 = within(at.y + reach, cells.height);
+  const float leaf_area = crown.leaf_area * plant.scale * plant.scale;
+  const auto per_cell = static_cast<float>(leaf_area * cells.cell * cells.cell / (pi_d * r * r));
+  for (int j = within(at.y - reach, cells.height); j <= j1; ++j)
+    for (int i = within(at.x - reach, cells.width); i <= i1; ++i) {
+      if (glm::distance(at, DVec2(i + 0.5, j + 0.5)) > reach) continue;
+      const std::size_t k = static_cast<std::size_t>(j) * static_cast<std::size_t>(cells.width) +
+                            static_cast<std::size_t>(i);
+      cells.area[k] += per_cell;
+      cells.foot[k] += per_cell * (plant.position.z + crown.foot * plant.scale);
+      cells.top[k] += per_cell * (plant.position.z + crown.top * plant.scale);
+    }
+}
+
+}  // namespace
+
+CanopyShade canopy_shade(const World& world, float least_height) {
+  std::vector<Crown> crowns;
+  for (const Model& model : world.models) crowns.push_back(crown_of(model, world.materials));
+  CanopyShade shade;
+  const Heightfield& field = world.ground.field();
+  Cells cells;
+  cells.low = field.origin;
+  cells.cell = std::max(cell_size, std::max(field.size().x, field.size().y) / most_cells);
+  cells.width = std::max(1, static_cast<int>(std::ceil(field.size().x / cells.cell)));
+  cells.height = std::max(1, static_cast<int>(std::ceil(field.size().y / cells.cell)));
+  const auto count = static_cast<std::size_t>(cells.width) * static_cast<std::size_t>(cells.height);
+  for (auto* list : {&cells.area, &cells.foot, &cells.top}) list->assign(count, 0);
+  bool any = false;
+  for (const ModelInstance& plant : world.instances) {
+    const Crown& crown = crowns[plant.model];
+    if (crown.leaf_area <= 0 || crown.top * plant.scale < least_height) continue;
+    add_crown(cells, crown, plant);
+    any = true;
+  }
+  if (!any) return shade;
+  shade.width = cells.width;
+  shade.height = cells.height;
+  shade.texels.reserve(4 * count);
+  const auto cell_area = static_cast<float>(cells.cell * cells.cell);
+  for (std::size_t k = 0; k < count; ++k) {
+    for (const float sum : {cells.area[k], cells.foot[k], cells.top[k], 0.0F})
+      shade.texels.push_back(sum / cell_area);
+  }
+  const DVec2 scale = 1.0 / (cells.cell * DVec2(cells.width, cells.height));
+  shade.place = Vec4(Vec2(scale), Vec2(-cells.low * scale));
+  return shade;
+}
+
+}  // namespace wold

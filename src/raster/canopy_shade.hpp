@@ -1,0 +1,29 @@
+#pragma once
+// How much of the sky the crowns of trees hide from what stands below them: a map of leaf area over
+// the ground.
+//
+// A crown of leaf area A (one side, m²) over a disc of radius r adds A / (π r²) to the leaf area
+// index L of the ground under it. What of an even sky passes a canopy of index L is exp(-k L), with
+// k = 0.5 for leaves that lie every way (Monsi, Saeki 1953): the shader's share for places below
+// the crowns' foot, and a smaller part of L within them.
+
+#include <span>
+#include <vector>
+
+#include "render/world.hpp"
+
+namespace wold {
+
+struct CanopyShade {
+  int width = 0;
+  int height = 0;
+  /// Four for each: L, and L times the height of the foot and of the top (m), so that what is
+  /// looked up between two of them is right; 0.
+  std::vector<float> texels;
+  Vec4 place{0};  ///< texture coordinate = zw + xy · place; all 0: no crowns
+};
+
+/// Of the plants of at least `least_height` metres, over the square from `low` to `high`.
+CanopyShade canopy_shade(const World& world, float least_height = 3);
+
+}  // namespace wold

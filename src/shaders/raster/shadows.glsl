@@ -1,0 +1,76 @@
+// What stands between a surface and the sun, or the sky (raster/shadow_maps.hpp, canopy_shade.hpp).
+#include "raster/view.glsl"
+
+const int cascades = 4;
+
+uniform int shadow_count;                // of cascades; 0: no shadow maps
+uniform sampler2D shadow_atlas;          // depth, nearest to the sun 1; two by two cascades
+uniform mat4 shadow_matrices[cascades];  // world to x, y in [-1, 1] and depth in [0, 1]
+uniform float shadow_texels[cascades];   // m
+uniform float shadow_blur;               // radius, in [-1, 1] of a cascade
+uniform float shadow_turn;               // radians, another for each frame
+uniform vec2 depth_range;                // depth = x + y · depth as stored
+
+uniform sampler2D canopy_map;  // leaf area per m² of ground, and that times its foot and top, m
+uniform vec4 canopy_place;     // texture = zw + xy · place; all 0: no crowns
+
+// J. Jimenez, "Next generation post processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014.
+float interleaved_noise(vec2 pixel) {
+  return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
+}
+
+// Of a cascade: 1 where the sun is seen.
+float shadow_tap(int cascade, vec3 at) {
+  vec2 corner = vec2(float(cascade & 1), float(cascade >> 1)) * 0.5;
+  float stored = texture(shadow_atlas, corner + 0.25 * (at.xy + 1.0)).r;
+  return depth_range.x + depth_range.y * stored > at.z ? 0.0 : 1.0;
+}
+
+float cascade_share(int cascade, vec3 at) {
+  const int taps = 8;
+  float turn = 6.2831853 * interleaved_noise(gl_FragCoord.xy) + shadow_turn;
+  float sum = 0.0;
+  for (int k = 0; k < taps; ++k) {
+    // Vogel's spiral.
+    float angle = 2.39996323 * float(k) + turn;
+    float r = shadow_blur * sqrt((float(k) + 0.5) / float(taps));
+    sum += shadow_tap(cascade, vec3(at.xy + r * vec2(cos(angle), sin(angle)), at.z));
+  }
+  return sum / float(taps);
+}
+
+// Part of the sun that is seen past what the shadow maps hold: all of it beyond them.
+float mapped_sun_share(vec3 place, vec3 normal) {
+  for (int k = 0; k < shadow_count; ++k) {
+    // Off the surface by more than what a texel hides.
+    vec3 lifted = place + normal * (2.0 * shadow_texels[k]);
+    vec3 at = (shadow_matrices[k] * vec4(lifted, 1.0)).xyz;
+    float edge = max(abs(at.x), abs(at.y));
+    if (edge > 0.97 || at.z < 0.0 || at.z > 1.0) continue;
+    float share = cascade_share(k, at);
+    if (k + 1 < shadow_count) return share;
+    return mix(share, 1.0, smoothstep(0.8, 0.97, edge));
+  }
+  return 1.0;
+}
+
+// Part of the sky that crowns above let through.
+float under_canopy(vec3 place) {
+  if (canopy_place.x == 0.0) return 1.0;
+  vec2 at = canopy_place.zw + canopy_place.xy * place.xy;
+  if (any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0)))) return 1.0;
+  vec3 crowns = texture(canopy_map, at).xyz;
+  if (crowns.x <= 0.0) return 1.0;
+  float foot = crowns.y / crowns.x;
+  float top = crowns.z / crowns.x;
+  float above = clamp((top - place.z) / max(top - foot, 0.5), 0.0, 1.0);
+  return exp(-0.5 * crowns.x * above);
+}
+
+float sun_share(vec3 place, vec3 normal) {
+  return mapped_sun_share(place, normal);
+}
+
+float sky_share(vec3 place, vec3 normal) {
+  return under_canopy(place);
+}
