@@ -218,7 +218,8 @@ PlantCurve plant_curve(const TriangleMesh& mesh, std::span<const std::uint32_t> 
                                            : crossing(s, d, share * curve.length).centre);
   }
   curve.width = widths(s, d, curve.length, segments);
-  const Vec3 along = glm::normalize(curve.centre.back() - curve.centre.front());
+  const Vec3 along = glm::normalize(crossing(s, d, 0.55F * curve.length).centre -
+                                    crossing(s, d, 0.25F * curve.length).centre);
   Vec3 across = crossing(s, d, 0.4F * curve.length).across;
   across -= glm::dot(across, along) * along;
   if (!(glm::length(across) > 1e-4F * curve.length))
