@@ -52,6 +52,12 @@ class CheckIncludes(unittest.TestCase):
         for name in ("tests/base/light_test.cpp", "bench/base/light_bench.cpp"):
             self.fails(above | {name: '#include "sky/sun.hpp"\n'}, name, "base is below sky")
 
+    def test_an_included_shader_exists(self):
+        shader = {"src/shaders/noise/lattice.glsl": "uint hash(uint x);\n"}
+        self.passes(shader | {"src/shaders/noise/noise.glsl": '#include "noise/lattice.glsl"\n'})
+        self.fails(shader | {"src/shaders/noise/noise.glsl": '#include "noise/latice.glsl"\n'},
+                   "noise.glsl:1", "does not exist in src/shaders")
+
     def test_the_c_interface_is_only_for_those_above_it(self):
         face = {"include/wold/wold.h": "int wold_version(void);\n"}
         self.passes(face | {"src/capi/api.cpp": '#include "wold/wold.h"\n'})
