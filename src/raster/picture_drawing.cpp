@@ -97,7 +97,8 @@ void PictureDrawing::draw(const Camera& camera, const DrawSurfaces& surfaces) {
   if (last_camera_ && !same(*last_camera_, camera)) frames_ = 0;
   const bool moving = frames_ == 0 && !fresh_ && last_camera_.has_value();
   light_.set_frame(number_);
-  const DrawView view = camera_view(camera, width_, height_, 0.1F, jitter_of(moving ? number_ : frames_));
+  const DrawView view =
+      camera_view(camera, width_, height_, 0.1F, jitter_of(moving ? number_ : frames_));
   light_.shadows().update(view, light_.sky().sun_direction(), [&](const DrawView& shadow) {
     glDisable(GL_CULL_FACE);
     surfaces(shadow, nullptr);

@@ -70,12 +70,12 @@ struct SkyParts {
   const Grid<Vec3>* behind_clouds = nullptr;  ///< the same without clouds
   const Grid<Vec3>* air = nullptr;            ///< J of haze.hpp; nullptr without haze or preetham
   const Haze* haze = nullptr;
-  const AirView* air_view = nullptr;    ///< of model "atmosphere"
-  const CloudLayer* clouds = nullptr;   ///< nullptr where there are none
-  Atmosphere planet;                    ///< the clouds' and the air's
-  Vec3 sun_on_clouds{0};                ///< lx
-  Vec3 sky_on_clouds{0};                ///< cd/m²
-  Vec3 sun_centre{0};                   ///< cd/m², outside clouds
+  const AirView* air_view = nullptr;   ///< of model "atmosphere"
+  const CloudLayer* clouds = nullptr;  ///< nullptr where there are none
+  Atmosphere planet;                   ///< the clouds' and the air's
+  Vec3 sun_on_clouds{0};               ///< lx
+  Vec3 sky_on_clouds{0};               ///< cd/m²
+  Vec3 sun_centre{0};                  ///< cd/m², outside clouds
   Vec3 limb_exponent{0};
   float sun_chord = 0;  ///< between unit vectors to the centre and the limb
 };
