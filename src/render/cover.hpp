@@ -45,6 +45,10 @@ class CoverLayer {
   float share(DVec2 place, float noise) const;
   Vec3 color(Vec3 p, float footprint) const { return texture_.at(p, footprint); }
 
+  const Heightfield& inner() const { return inner_; }
+  const Heightfield& outer() const { return outer_; }
+  const TwoColorTexture& texture() const { return texture_; }
+
  private:
   GroundCover settings_;
   Heightfield inner_;

@@ -65,7 +65,32 @@ class Ground {
   Ground(Heightfield field, Heightfield surroundings, GroundMaterial material, std::uint64_t seed,
          GroundDressing dressing = {});
 
+  /// The noises and textures it is made of, for its twin in GLSL (shaders/render/ground.glsl).
+  struct Noises {
+    const FractalSampler& detail;  ///< small features of soil and rock
+    const FractalSampler& edges;   ///< of covers
+    const FractalSampler& grains;
+    const FractalSampler& patches;  ///< of grass on soil
+    const FractalSampler& woods;    ///< distant forest
+    const FractalSampler& crowns;   ///< of its trees
+    const FractalSampler& ripples;  ///< on water
+    const TwoColorTexture& soil;
+    const TwoColorTexture& grass;
+    const TwoColorTexture& rock;
+    const TwoColorTexture& canopy;
+  };
+
   const Heightfield& field() const { return field_; }
+  /// Empty where there are none.
+  const Heightfield& surroundings() const { return surroundings_; }
+  const GroundMaterial& material() const { return material_; }
+  const GroundDressing& dressing() const { return dressing_; }
+  /// Size of the largest features that detail adds, m.
+  float widest_detail() const { return widest_detail_; }
+  Noises noises() const {
+    return {detail_,  edges_, grains_, patches_, woods_, crowns_,
+            ripples_, soil_,  grass_,  rock_,    canopy_};
+  }
   /// Square of ground that is modelled: the surroundings where there are any.
   DVec2 low() const { return low_; }
   DVec2 high() const { return high_; }

@@ -30,6 +30,10 @@ class TwoColorTexture {
   /// The mix at p (m); octaves finer than `footprint` (m) are left out.
   Vec3 at(Vec3 p, float footprint) const;
 
+  const TwoColors& colors() const { return colors_; }
+  float stretch() const { return stretch_; }
+  const FractalSampler& noise() const { return noise_; }
+
  private:
   TwoColors colors_;
   float stretch_;

@@ -38,6 +38,8 @@ class WaterLayer {
   /// Height of the water's surface, m: there is water where it lies above the ground. Nothing
   /// outside the field.
   std::optional<float> level_at(DVec2 place) const;
+  /// The levels at the samples; they lie below the ground where there is no water.
+  const Heightfield& levels() const { return level_; }
 
  private:
   Heightfield level_;  ///< below the ground where there is none
