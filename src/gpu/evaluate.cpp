@@ -14,6 +14,7 @@ namespace wold {
 namespace {
 
 constexpr int row_length = 1024;
+constexpr int first_unit = 14;  // of the points' textures
 
 GpuTexture texture_of(std::span<const Vec4> points, int width, int height) {
   std::vector<float> texels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
@@ -29,7 +30,8 @@ GpuTexture texture_of(std::span<const Vec4> points, int width, int height) {
 }  // namespace
 
 std::vector<Vec4> evaluate_shader(std::string_view body, std::span<const Vec4> a,
-                                  std::span<const Vec4> b, std::span<const ShaderDefine> defines) {
+                                  std::span<const Vec4> b, std::span<const ShaderDefine> defines,
+                                  const std::function<void(const GpuProgram&)>& prepare) {
   if (a.empty()) return {};
   const ShaderDialect dialect = gpu_info().dialect;
   const std::string whole = "#include \"gpu/evaluate.frag.glsl\"\n" + std::string(body);
@@ -45,10 +47,11 @@ std::vector<Vec4> evaluate_shader(std::string_view body, std::span<const Vec4> a
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
   program.use();
-  program.set("points_a", 0);
-  program.set("points_b", 1);
-  first.bind(0);
-  second.bind(1);
+  if (prepare) prepare(program);
+  program.set("points_a", first_unit);
+  program.set("points_b", first_unit + 1);
+  first.bind(first_unit);
+  second.bind(first_unit + 1);
   draw_full_screen();
   const std::vector<float> values = target.read();
   std::vector<Vec4> out(a.size());
