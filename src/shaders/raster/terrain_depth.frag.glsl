@@ -1,0 +1,3 @@
+// The ground in a shadow map: its depth alone.
+
+void main() {}
