@@ -28,14 +28,19 @@ class SunlitAir {
   /// Light seen along a ray, up to `distance`.
   ScatteredSums seen(const AirRay& ray, float distance, int steps) const;
 
+  /// Nodes of the tables, for textures: transmittance to space in columns by the distance to it and
+  /// rows by the distance to the horizon; Ψ in columns by cosine of the sun and rows by height.
+  const Grid<Vec3>& transmittance_table() const { return transmittance_; }
+  const Grid<Vec3>& multiple_table() const { return multiple_; }
+
  private:
   void fill_transmittance();
   void fill_multiple();
   Vec3 multiple_at(float height, float sun_cosine) const;
 
   Atmosphere atmosphere_;
-  Grid<Vec3> transmittance_;  // columns by distance to space, rows by distance to the horizon
-  Grid<Vec3> multiple_;       // columns by cosine of the sun, rows by height
+  Grid<Vec3> transmittance_;
+  Grid<Vec3> multiple_;
 };
 
 }  // namespace wold

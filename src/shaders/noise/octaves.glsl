@@ -75,19 +75,21 @@ LatticePlace3 lattice_place(vec3 p) {
   return LatticePlace3(ivec3(below), x - below);
 }
 
-// The same of a place in metres with so many metres to a cell: right to 1e-7 of a cell also far
-// from the origin, where place / feature_size is not.
+// The same of a place in metres with so many metres to a cell: as exact as `place`, where
+// place / feature_size is not.
 LatticePlace2 lattice_place(vec2 place, float feature_size) {
   vec2 cell = floor(place / feature_size);
-  LatticePlace2 p = lattice_place((place - cell * feature_size) / feature_size);
-  p.grid += ivec2(cell) * 4096;
-  return p;
+  vec2 within = (place - cell * feature_size) * grid_units;
+  vec2 units = floor(within / feature_size);
+  return LatticePlace2(ivec2(cell) * 4096 + ivec2(units),
+                       (within - units * feature_size) / feature_size);
 }
 LatticePlace3 lattice_place(vec3 place, float feature_size) {
   vec3 cell = floor(place / feature_size);
-  LatticePlace3 p = lattice_place((place - cell * feature_size) / feature_size);
-  p.grid += ivec3(cell) * 4096;
-  return p;
+  vec3 within = (place - cell * feature_size) * grid_units;
+  vec3 units = floor(within / feature_size);
+  return LatticePlace3(ivec3(cell) * 4096 + ivec3(units),
+                       (within - units * feature_size) / feature_size);
 }
 
 uvec2 lattice_cell(LatticePlace2 p) {
