@@ -76,16 +76,16 @@ LatticePlace3 lattice_place(vec3 p) {
 }
 
 // The same of a place in metres with so many metres to a cell: as exact as `place`, where
-// place / feature_size is not.
+// place / feature_size is not (from the nearest cell's corner no difference is rounded).
 LatticePlace2 lattice_place(vec2 place, float feature_size) {
-  vec2 cell = floor(place / feature_size);
+  vec2 cell = floor(place / feature_size + 0.5);
   vec2 within = (place - cell * feature_size) * grid_units;
   vec2 units = floor(within / feature_size);
   return LatticePlace2(ivec2(cell) * 4096 + ivec2(units),
                        (within - units * feature_size) / feature_size);
 }
 LatticePlace3 lattice_place(vec3 place, float feature_size) {
-  vec3 cell = floor(place / feature_size);
+  vec3 cell = floor(place / feature_size + 0.5);
   vec3 within = (place - cell * feature_size) * grid_units;
   vec3 units = floor(within / feature_size);
   return LatticePlace3(ivec3(cell) * 4096 + ivec3(units),
