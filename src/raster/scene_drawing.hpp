@@ -1,0 +1,57 @@
+#pragma once
+// A scene drawn in real time: its land, its plants, its light.
+
+#include <memory>
+#include <vector>
+
+#include "raster/picture_drawing.hpp"
+#include "raster/plant_drawing.hpp"
+#include "raster/terrain_drawing.hpp"
+#include "scene/planted_world.hpp"
+
+namespace wold {
+
+struct SceneDetail {
+  TerrainDetail terrain;
+  PlantDetail plants;
+  PictureQuality picture;
+  ShadowSettings shadows;
+};
+
+/// What suits the driver: a processor draws less.
+SceneDetail suitable_detail(bool software);
+
+class SceneDrawing {
+ public:
+  /// Keeps a reference to `world`. Needs a current context. Throws as GpuProgram, and
+  /// Error(cancelled).
+  SceneDrawing(const PlantedWorld& world, const SceneDetail& detail, Progress& progress);
+
+  void resize(int width, int height) { picture_.resize(width, height); }
+  /// Draws one frame more (PictureDrawing::draw). Plants that stand around the eye only are found
+  /// anew once it has moved on.
+  void draw(const Camera& camera);
+
+  /// Another moment over the same land.
+  void set_sky(const SkySettings& sky);
+  /// The ground's heights, maps or colours have changed.
+  void update_ground(const Ground& ground);
+
+  PictureDrawing& picture() { return picture_; }
+  const PictureDrawing& picture() const { return picture_; }
+  const SceneLight& light() const { return light_; }
+  std::size_t drawn_triangles() const;
+
+ private:
+  void find_plants_near(const Camera& camera);
+
+  const PlantedWorld& world_;
+  SceneLight light_;
+  TerrainDrawing terrain_;
+  PlantDrawing plants_;
+  PictureDrawing picture_;
+  bool has_plants_near_ = false;
+  DVec2 plants_near_{0};  // the eye they were found for
+};
+
+}  // namespace wold
