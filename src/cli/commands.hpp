@@ -11,6 +11,7 @@ namespace wold {
 struct Session;
 
 void add_render(CLI::App& app, Session& session);
+void add_view(CLI::App& app, Session& session);
 void add_terrain(CLI::App& app, Session& session);
 void add_erode(CLI::App& app, Session& session);
 void add_analyze(CLI::App& app, Session& session);

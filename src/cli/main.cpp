@@ -75,6 +75,7 @@ int run(int argc, char** argv) {
   wold::Session session;
   session.interrupted = &interrupted;
   wold::add_render(app, session);
+  wold::add_view(app, session);
   wold::add_terrain(app, session);
   wold::add_erode(app, session);
   wold::add_analyze(app, session);

@@ -3,7 +3,6 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -13,6 +12,7 @@
 #include "base/parallel.hpp"
 #include "cli/commands.hpp"
 #include "cli/delivery.hpp"
+#include "cli/picture_options.hpp"
 #include "cli/session.hpp"
 #include "image/atomic_file.hpp"
 #include "image/io.hpp"
@@ -37,37 +37,17 @@ double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::optional<std::uint32_t> number(std::string_view text) {
-  std::uint32_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 /// "N" is [0, N); "A:B" is [A, B).
 SampleRange parse_samples(const std::string& text) {
   const auto colon = text.find(':');
-  const auto first = colon == std::string::npos ? 0U : number(text.substr(0, colon));
-  const auto last = number(colon == std::string::npos ? text : text.substr(colon + 1));
+  const auto first = colon == std::string::npos ? 0U : whole_number(text.substr(0, colon));
+  const auto last = whole_number(colon == std::string::npos ? text : text.substr(colon + 1));
   if (!first || !last || *first >= *last || *last > (1U << 20U))
     throw Error(ErrorKind::usage,
                 fmt::format("'--samples {}' must be a number such as 64, or a range such as 0:32 "
                             "with the end after the start, up to {}",
                             text, 1U << 20U));
   return {*first, *last};
-}
-
-std::string size_override(const std::string& text) {
-  const auto x = text.find_first_of("xX");
-  const auto width = x == std::string::npos ? std::nullopt : number(text.substr(0, x));
-  const auto height = x == std::string::npos ? std::nullopt : number(text.substr(x + 1));
-  const auto good = [](std::optional<std::uint32_t> n) { return n && *n >= 1 && *n <= 65536; };
-  if (!good(width) || !good(height))
-    throw Error(ErrorKind::usage,
-                fmt::format("'--size {}' must be width x height in pixels, such as 1280x720, each "
-                            "1 to 65536",
-                            text));
-  return fmt::format("render.size=[{}, {}]", *width, *height);
 }
 
 /// One render, from the command line to its files.

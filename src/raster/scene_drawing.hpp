@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "raster/picture_drawing.hpp"
-#include "raster/plant_drawing.hpp"
 #include "raster/terrain_drawing.hpp"
 #include "scene/planted_world.hpp"
 
@@ -13,7 +12,6 @@ namespace wold {
 
 struct SceneDetail {
   TerrainDetail terrain;
-  PlantDetail plants;
   PictureQuality picture;
   ShadowSettings shadows;
 };
@@ -43,15 +41,10 @@ class SceneDrawing {
   std::size_t drawn_triangles() const;
 
  private:
-  void find_plants_near(const Camera& camera);
-
   const PlantedWorld& world_;
   SceneLight light_;
   TerrainDrawing terrain_;
-  PlantDrawing plants_;
   PictureDrawing picture_;
-  bool has_plants_near_ = false;
-  DVec2 plants_near_{0};  // the eye they were found for
 };
 
 }  // namespace wold

@@ -1,0 +1,44 @@
+#include "raster/scene_drawing.hpp"
+
+#include <cmath>
+
+namespace wold {
+
+SceneDetail suitable_detail(bool software) {
+  SceneDetail detail;
+  if (!software) return detail;
+  detail.shadows.size = 1024;
+  detail.picture.cloud_steps = 48;
+  return detail;
+}
+
+SceneDrawing::SceneDrawing(const PlantedWorld& world, const SceneDetail& detail, Progress&)
+    : world_(world),
+      light_(world.world().sky, detail.shadows),
+      terrain_(world.world().ground, detail.terrain),
+      picture_(light_, detail.picture) {
+  light_.set_canopy(canopy_shade(world.world()));
+}
+
+void SceneDrawing::draw(const Camera& camera) {
+  picture_.draw(camera, [this](const DrawView& view, const SceneLight* light) {
+    terrain_.draw(view, light);
+  });
+}
+
+void SceneDrawing::set_sky(const SkySettings& sky) {
+  light_.set_sky(Sky(sky));
+  picture_.sky_changed();
+}
+
+void SceneDrawing::update_ground(const Ground& ground) {
+  terrain_.update(ground);
+  light_.shadows().forget();
+  picture_.restart();
+}
+
+std::size_t SceneDrawing::drawn_triangles() const {
+  return terrain_.drawn_triangles();
+}
+
+}  // namespace wold
