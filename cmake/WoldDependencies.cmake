@@ -11,6 +11,7 @@ if(NOT embree_FOUND)
   find_package(embree 4 REQUIRED)
 endif()
 find_package(PkgConfig REQUIRED)
+find_package(ZLIB REQUIRED)
 pkg_check_modules(HIGHWAY REQUIRED IMPORTED_TARGET libhwy)
 # By pkg-config: Debian's CMake package of OpenImageIO also wants its command-line tools.
 pkg_check_modules(OPENIMAGEIO REQUIRED IMPORTED_TARGET OpenImageIO)

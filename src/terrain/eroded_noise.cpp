@@ -16,14 +16,18 @@ Description<ErodedGround> describe(const ErodedGround&) {
            "How much slope smooths what is finer.");
 }
 
-Heightfield eroded_noise(const Heightfield& input, const ErodedGround& parameters,
-                         const TerrainContext& context) {
+Fractal fractal_of(const ErodedGround& parameters) {
   Fractal f{.kind = FractalKind::eroded,
             .octaves = parameters.octaves,
             .lacunarity = parameters.lacunarity,
             .hurst = parameters.hurst};
   f.damping = parameters.damping;
-  return fractal_ground(input, f, parameters.shape, context);
+  return f;
+}
+
+Heightfield eroded_noise(const Heightfield& input, const ErodedGround& parameters,
+                         const TerrainContext& context) {
+  return fractal_ground(input, fractal_of(parameters), parameters.shape, context);
 }
 
 }  // namespace wold

@@ -16,6 +16,8 @@ struct ErodedGround {
 
 Description<ErodedGround> describe(const ErodedGround&);
 
+Fractal fractal_of(const ErodedGround& parameters);
+
 Heightfield eroded_noise(const Heightfield& input, const ErodedGround& parameters,
                          const TerrainContext& context);
 

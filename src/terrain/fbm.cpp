@@ -13,14 +13,17 @@ Description<FbmGround> describe(const FbmGround&) {
            "Smoothness H: amplitude falls as frequency to the power -H.");
 }
 
-Heightfield fbm(const Heightfield& input, const FbmGround& parameters,
-                const TerrainContext& context) {
+Fractal fractal_of(const FbmGround& parameters) {
   Fractal f{.kind = FractalKind::fbm,
             .octaves = parameters.octaves,
             .lacunarity = parameters.lacunarity,
             .hurst = parameters.hurst};
+  return f;
+}
 
-  return fractal_ground(input, f, parameters.shape, context);
+Heightfield fbm(const Heightfield& input, const FbmGround& parameters,
+                const TerrainContext& context) {
+  return fractal_ground(input, fractal_of(parameters), parameters.shape, context);
 }
 
 }  // namespace wold

@@ -15,6 +15,8 @@ struct FbmGround {
 
 Description<FbmGround> describe(const FbmGround&);
 
+Fractal fractal_of(const FbmGround& parameters);
+
 Heightfield fbm(const Heightfield& input, const FbmGround& parameters,
                 const TerrainContext& context);
 

@@ -13,8 +13,13 @@ namespace {
 
 constexpr std::uint32_t probe_seed = 0x70726f62;
 
-std::uint32_t noise_seed(std::uint64_t seed) {
-  return static_cast<std::uint32_t>(mix_bits(seed) >> 32U);
+constexpr int probes = 4096;
+
+DVec2 probe_place(int k) {
+  const auto coordinate = [&](int axis) {
+    return 97.0 * uniform_double(random_bits(probe_seed, k, axis));
+  };
+  return {coordinate(0), coordinate(1)};
 }
 
 }  // namespace
@@ -30,7 +35,7 @@ Description<FractalShape> describe(const FractalShape&) {
 }
 
 FractalStatistics fractal_statistics(const Fractal& f, float spacing) {
-  constexpr int count = 4096;
+  constexpr int count = probes;
   constexpr int tail = count / 200;
   const FractalSampler sample(f, probe_seed);
   std::vector<float> whole(count);
@@ -38,10 +43,7 @@ FractalStatistics fractal_statistics(const Fractal& f, float spacing) {
   parallel_for(
       0, count,
       [&](int k) {
-        const auto coordinate = [&](int axis) {
-          return 97.0 * uniform_double(random_bits(probe_seed, k, axis));
-        };
-        const DVec2 place(coordinate(0), coordinate(1));
+        const DVec2 place = probe_place(k);
         whole[static_cast<std::size_t>(k)] = sample(place).value;
         faded[static_cast<std::size_t>(k)] = sample(place, spacing).value;
       },
@@ -52,6 +54,25 @@ FractalStatistics fractal_statistics(const Fractal& f, float spacing) {
   const auto lost = static_cast<float>(mean(whole) - mean(faded));
   std::sort(whole.begin(), whole.end());
   return {{whole[tail], whole[count - 1 - tail]}, lost};
+}
+
+std::vector<float> octave_means(const Fractal& f) {
+  std::vector<float> means;
+  double before = 0;
+  for (int octaves = 1; octaves <= f.octaves; ++octaves) {
+    Fractal part = f;
+    part.octaves = octaves;
+    const FractalSampler sample(part, probe_seed);
+    double sum = 0;
+    for (int k = 0; k < probes; ++k) sum += static_cast<double>(sample(probe_place(k)).value);
+    means.push_back(static_cast<float>((sum - before) / probes));
+    before = sum;
+  }
+  return means;
+}
+
+std::uint32_t fractal_seed(std::uint64_t seed) {
+  return static_cast<std::uint32_t>(mix_bits(seed) >> 32U);
 }
 
 DVec2 fractal_offset(std::uint64_t seed) {
@@ -68,7 +89,7 @@ Heightfield fractal_ground(const Heightfield& input, const Fractal& f, const Fra
                   input.cell};
   const double size = static_cast<double>(shape.feature_size);
   fill_fractal(out.height, f, input.origin / size + fractal_offset(context.seed), input.cell / size,
-               noise_seed(context.seed), context.progress);
+               fractal_seed(context.seed), context.progress);
   const auto [range, lost] = fractal_statistics(f, static_cast<float>(input.cell / size));
   const float low = range.low - lost;
   const float scale = shape.height / std::max(1e-6F, range.high - range.low);
@@ -87,7 +108,7 @@ Grid<float> irregular(const Heightfield& input, float feature_size, int octaves,
   const Fractal f{.octaves = octaves};
   const double size = static_cast<double>(feature_size);
   fill_fractal(out, f, input.origin / size + fractal_offset(seed), input.cell / size,
-               noise_seed(seed), progress);
+               fractal_seed(seed), progress);
   return out;
 }
 

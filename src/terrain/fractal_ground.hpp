@@ -9,6 +9,8 @@
 // is the mean of the octaves that the samples are too coarse for (those of ridged and turbulent
 // fractals have one): without it coarser ground would lie lower.
 
+#include <vector>
+
 #include "noise/fractal.hpp"
 #include "terrain/operator.hpp"
 
@@ -28,6 +30,12 @@ struct FractalStatistics {
 };
 
 FractalStatistics fractal_statistics(const Fractal& f, float spacing);
+
+/// What each octave adds on average: an octave that fades out takes so much with it.
+std::vector<float> octave_means(const Fractal& f);
+
+/// The seed of a step's fractal.
+std::uint32_t fractal_seed(std::uint64_t seed);
 
 /// Where a step's pattern lies: lattice coordinates of the world's origin, random because gradient
 /// noise is 0 at lattice points (a ridged fractal has a crest there).

@@ -15,14 +15,18 @@ Description<HybridGround> describe(const HybridGround&) {
            "Raises the noise before it is multiplied; more is rougher in the valleys.");
 }
 
-Heightfield hybrid(const Heightfield& input, const HybridGround& parameters,
-                   const TerrainContext& context) {
+Fractal fractal_of(const HybridGround& parameters) {
   Fractal f{.kind = FractalKind::hybrid,
             .octaves = parameters.octaves,
             .lacunarity = parameters.lacunarity,
             .hurst = parameters.hurst};
   f.offset = parameters.offset;
-  return fractal_ground(input, f, parameters.shape, context);
+  return f;
+}
+
+Heightfield hybrid(const Heightfield& input, const HybridGround& parameters,
+                   const TerrainContext& context) {
+  return fractal_ground(input, fractal_of(parameters), parameters.shape, context);
 }
 
 }  // namespace wold

@@ -15,6 +15,8 @@ struct HybridGround {
 
 Description<HybridGround> describe(const HybridGround&);
 
+Fractal fractal_of(const HybridGround& parameters);
+
 Heightfield hybrid(const Heightfield& input, const HybridGround& parameters,
                    const TerrainContext& context);
 

@@ -16,7 +16,7 @@ namespace wold {
 
 namespace {
 
-constexpr Fractal patch_fractal{.octaves = 6};
+constexpr Fractal patch_fractal{.octaves = patch_octaves};
 
 Grid<float> height_mask(const Heightfield& input, const Mask& m, Progress& progress) {
   return map_grid<float>(input, progress, [&](int i, int j) {
@@ -39,8 +39,9 @@ Grid<float> curvature_mask(const Heightfield& input, const Mask& m) {
   return out;
 }
 
-/// The noise above which the given part of its values lies; the same at every resolution.
-float threshold_of(float coverage) {
+}  // namespace
+
+float patch_threshold(float coverage) {
   constexpr int count = 61;
   const FractalSampler sample(patch_fractal, 1);
   std::vector<float> values;
@@ -52,10 +53,12 @@ float threshold_of(float coverage) {
   return values[static_cast<std::size_t>((1 - coverage) * last)];
 }
 
+namespace {
+
 Grid<float> noise_mask(const Heightfield& input, const Mask& m, const TerrainContext& context) {
   Grid<float> out =
       irregular(input, m.feature_size, patch_fractal.octaves, context.seed, context.progress);
-  const float threshold = threshold_of(m.coverage);
+  const float threshold = patch_threshold(m.coverage);
   for (float& n : out.values()) n = soft_step(threshold, m.edge, n);
   return out;
 }

@@ -39,6 +39,11 @@ Description<Mask> describe(const Mask&);
 TerrainResult make_mask(const Heightfield& input, const Mask& parameters,
                         const TerrainContext& context);
 
+/// Octaves of the noise of patches, and the noise above which the given part of its values lies;
+/// the same at every resolution.
+inline constexpr int patch_octaves = 6;
+float patch_threshold(float coverage);
+
 /// How far outside a place the input matters there, m.
 double reach_of(const Mask& parameters, double cell);
 

@@ -19,8 +19,7 @@ Description<RidgedGround> describe(const RidgedGround&) {
            "Rounds the crests: |x| becomes sqrt(x² + k²).");
 }
 
-Heightfield ridged(const Heightfield& input, const RidgedGround& parameters,
-                   const TerrainContext& context) {
+Fractal fractal_of(const RidgedGround& parameters) {
   Fractal f{.kind = FractalKind::ridged,
             .octaves = parameters.octaves,
             .lacunarity = parameters.lacunarity,
@@ -28,7 +27,12 @@ Heightfield ridged(const Heightfield& input, const RidgedGround& parameters,
   f.offset = parameters.offset;
   f.gain = parameters.gain;
   f.smooth_ridges = parameters.smooth_ridges;
-  return fractal_ground(input, f, parameters.shape, context);
+  return f;
+}
+
+Heightfield ridged(const Heightfield& input, const RidgedGround& parameters,
+                   const TerrainContext& context) {
+  return fractal_ground(input, fractal_of(parameters), parameters.shape, context);
 }
 
 }  // namespace wold

@@ -18,6 +18,8 @@ struct RidgedGround {
 
 Description<RidgedGround> describe(const RidgedGround&);
 
+Fractal fractal_of(const RidgedGround& parameters);
+
 Heightfield ridged(const Heightfield& input, const RidgedGround& parameters,
                    const TerrainContext& context);
 

@@ -35,15 +35,6 @@ Grid<float> cropped(const Grid<float>& grid, int margin) {
   return out;
 }
 
-/// Random numbers of a step stay its own when other steps are added before it.
-std::uint64_t step_seed(std::uint64_t seed, const TerrainStep& step, int place_among_its_kind) {
-  const std::uint64_t who =
-      step.settings.name.empty()
-          ? random_bits(hash_text(step.op), place_among_its_kind)
-          : random_bits(hash_text(step.settings.name), std::uint64_t{0x6e616d65});
-  return random_bits(seed, who, step.settings.seed);
-}
-
 /// A mask goes by the name of its step alone.
 std::string map_name(const std::string& step, const std::string& map) {
   return map == "mask" ? step : step + "." + map;
@@ -75,11 +66,6 @@ void blend_into(Grid<float>& output, const Grid<float>& before, Blend blend,
         }
       },
       16);
-}
-
-Blend actual_blend(const TerrainStep& step, const TerrainOperator& op) {
-  if (step.settings.blend != Blend::automatic) return step.settings.blend;
-  return op.makes_ground ? Blend::add : Blend::replace;
 }
 
 /// Runs one step after another.
@@ -228,6 +214,19 @@ TerrainStep make_step(std::span<const TerrainOperator> operators, std::string_vi
                       const SourceLocation& where) {
   const TerrainOperator& found = find_operator(operators, op, where);
   return {found.name(), found.defaults, {}, where};
+}
+
+Blend actual_blend(const TerrainStep& step, const TerrainOperator& op) {
+  if (step.settings.blend != Blend::automatic) return step.settings.blend;
+  return op.makes_ground ? Blend::add : Blend::replace;
+}
+
+std::uint64_t step_seed(std::uint64_t seed, const TerrainStep& step, int place_among_its_kind) {
+  const std::uint64_t who =
+      step.settings.name.empty()
+          ? random_bits(hash_text(step.op), place_among_its_kind)
+          : random_bits(hash_text(step.settings.name), std::uint64_t{0x6e616d65});
+  return random_bits(seed, who, step.settings.seed);
 }
 
 void assign(TerrainStep& step, std::string_view name, const Value& value,

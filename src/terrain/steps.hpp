@@ -90,6 +90,13 @@ struct TerrainStep {
 TerrainStep make_step(std::span<const TerrainOperator> operators, std::string_view op,
                       const SourceLocation& where = {});
 
+/// The seed of a step in a terrain with this seed: it stays the same when other steps are added
+/// before. `place_among_its_kind`: how many steps of its operator stand before it.
+std::uint64_t step_seed(std::uint64_t seed, const TerrainStep& step, int place_among_its_kind);
+
+/// What Blend::automatic means for this step.
+Blend actual_blend(const TerrainStep& step, const TerrainOperator& op);
+
 /// Sets a common setting or a parameter of the operator. Throws Error(input).
 void assign(TerrainStep& step, std::string_view name, const Value& value,
             const SourceLocation& where = {});

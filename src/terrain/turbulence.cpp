@@ -13,14 +13,17 @@ Description<TurbulenceGround> describe(const TurbulenceGround&) {
            "Smoothness H: amplitude falls as frequency to the power -H.");
 }
 
-Heightfield turbulence(const Heightfield& input, const TurbulenceGround& parameters,
-                       const TerrainContext& context) {
+Fractal fractal_of(const TurbulenceGround& parameters) {
   Fractal f{.kind = FractalKind::turbulence,
             .octaves = parameters.octaves,
             .lacunarity = parameters.lacunarity,
             .hurst = parameters.hurst};
+  return f;
+}
 
-  return fractal_ground(input, f, parameters.shape, context);
+Heightfield turbulence(const Heightfield& input, const TurbulenceGround& parameters,
+                       const TerrainContext& context) {
+  return fractal_ground(input, fractal_of(parameters), parameters.shape, context);
 }
 
 }  // namespace wold

@@ -15,6 +15,8 @@ struct TurbulenceGround {
 
 Description<TurbulenceGround> describe(const TurbulenceGround&);
 
+Fractal fractal_of(const TurbulenceGround& parameters);
+
 Heightfield turbulence(const Heightfield& input, const TurbulenceGround& parameters,
                        const TerrainContext& context);
 

@@ -1,0 +1,251 @@
+#include "realtime/landscape.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "realtime/land_function.hpp"
+#include "realtime/light_tables.hpp"
+#include "scene/build.hpp"
+
+namespace wold {
+
+namespace {
+
+constexpr int survey_samples = 257;
+constexpr float fair_coverage = 0.32F;
+
+std::string num(double value) {
+  return glsl_number(value);
+}
+std::string vec3_text(Vec3 v) {
+  return fmt::format("vec3({}, {}, {})", num(double{v.x}), num(double{v.y}), num(double{v.z}));
+}
+std::string range_text(const Range& r) {
+  return fmt::format("vec2({}, {})", num(double{r.low}), num(double{r.high}));
+}
+
+std::vector<TerrainStep> function_steps(const Scene& scene, const LandFunction& land) {
+  std::vector<TerrainStep> steps;
+  for (const TerrainStep& step : scene.steps) {
+    const std::string& name = step.settings.name.empty() ? step.op : step.settings.name;
+    const bool out =
+        std::find(land.left_out.begin(), land.left_out.end(), name) != land.left_out.end();
+    if (!out) steps.push_back(step);
+  }
+  return steps;
+}
+
+/// Heights that 1 % and 99 % of a land lie below, and all of it.
+struct Relief {
+  Range most;
+  Range all;
+};
+
+Relief relief_of(const Grid<float>& height) {
+  std::vector<float> sorted(height.values().begin(), height.values().end());
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t tail = sorted.size() / 100;
+  return {{sorted[tail], sorted[sorted.size() - 1 - tail]}, {sorted.front(), sorted.back()}};
+}
+
+/// The steps over `factor` times the terrain, coarsely.
+Relief survey(const Scene& scene, const std::vector<TerrainStep>& all, double factor,
+              Progress& progress) {
+  std::vector<TerrainStep> steps = all;
+  for (TerrainStep& step : steps) step.settings.cell = 0;
+  const TerrainDomain domain = domain_of(scene.terrain);
+  const double size = factor * std::max(domain.size.x, domain.size.y);
+  TerrainWindow window;
+  window.width = window.height = survey_samples;
+  window.cell = size / (survey_samples - 1);
+  window.origin = domain.center() - DVec2(0.5 * size);
+  const TerrainResult result = evaluate(scene.terrain, window, steps, scene_operators(),
+                                        scene.header.seed, scene.folder, progress);
+  return relief_of(result.field.height);
+}
+
+/// Ridges in the place of steps that raise mountains but cannot be told by a function: as high as
+/// the finished land is. Returns what was done, or "".
+std::string stand_in(const Scene& scene, std::vector<TerrainStep>& steps, Progress& progress) {
+  const Relief finished = survey(scene, scene.steps, 1, progress);
+  const Relief told = survey(scene, steps, 1, progress);
+  const float missing = (finished.most.high - finished.most.low) - (told.most.high - told.most.low);
+  if (!(missing > 0.3F * (finished.most.high - finished.most.low))) return "";
+  const DVec2 size = domain_of(scene.terrain).size;
+  const double feature = 0.3 * std::max(size.x, size.y);
+  TerrainStep ridges = make_step(scene_operators(), "ridged");
+  ridges.settings.name = "stand-in";
+  assign(ridges, "height", Value{double{missing}});
+  assign(ridges, "base", Value{double{finished.most.low - told.most.low}});
+  assign(ridges, "feature_size", Value{feature});
+  TerrainStep bends = make_step(scene_operators(), "warp");
+  bends.settings.name = "stand-in bends";
+  assign(bends, "distance", Value{0.06 * feature});
+  assign(bends, "feature_size", Value{0.6 * feature});
+  steps.push_back(ridges);
+  steps.push_back(bends);
+  return fmt::format("ridges {:.0f} m high stand in for them", missing);
+}
+
+bool plants_trees(const Scene& scene) {
+  return std::any_of(scene.species.begin(), scene.species.end(),
+                     [](const SpeciesSettings& s) { return s.height.high >= 4; }) &&
+         !scene.scatter.empty();
+}
+
+/// Steps "left out" that make no ground are no loss: snow and covers by maps remain colours.
+void set_camera(const Scene& scene, const std::string& name, const Relief& relief, Landscape& out) {
+  const CameraSettings& camera = scene.camera(name);
+  LandscapeSettings& s = out.settings;
+  const DVec2 middle = domain_of(scene.terrain).center();
+  if (camera.position.size() >= 2) {
+    s.cam_east = static_cast<float>(camera.position[0] - middle.x);
+    s.cam_north = static_cast<float>(camera.position[1] - middle.y);
+  }
+  const float height = relief.most.high - relief.most.low;
+  s.cam_height = std::clamp(std::max(camera.look_height, 0.14F * height), 40.0F, 2000.0F);
+  s.cam_speed = std::clamp(0.35F * s.cam_height, 15.0F, 250.0F);
+  // Without a direction: with the sun at the side, where shapes show best.
+  s.cam_direction = std::remainder(s.sun_azimuth + 115.0F, 360.0F);
+  if (camera.look_direction.size() == 3) {
+    const double azimuth = std::atan2(camera.look_direction[0], camera.look_direction[1]);
+    s.cam_direction = static_cast<float>(degrees(azimuth));
+  }
+  s.field_of_view = camera.field_of_view;
+}
+
+void set_sky(const Scene& scene, const Relief& relief, Landscape& out) {
+  LandscapeSettings& s = out.settings;
+  SkySettings clear = scene.sky;
+  clear.clouds.coverage = 0;
+  const Vec3 sun = Sky(clear).sun_direction();
+  s.sun_elevation = degrees(std::asin(std::clamp(sun.z, -1.0F, 1.0F)));
+  s.sun_azimuth = degrees(std::atan2(sun.x, sun.y));
+  if (s.sun_azimuth < 0) s.sun_azimuth += 360;
+  const Clouds& c = scene.sky.clouds;
+  const bool has_clouds = c.coverage > 0;
+  s.cloud_coverage = has_clouds ? c.coverage : fair_coverage;
+  s.clouds_height = has_clouds ? c.height : std::max(1500.0F, relief.all.high + 900);
+  s.clouds_thickness = c.thickness;
+  s.cloud_size = c.feature_size;
+  s.cloud_scattering = c.scattering;
+  s.cloud_absorption = c.absorption;
+  s.cloud_forward = c.forward;
+  s.cloud_back = c.back;
+  s.cloud_back_share = c.back_share;
+}
+
+std::string air_text(const Atmosphere& a) {
+  return fmt::format("Atmosphere({}, {}, {}, {}, {}, {}, {}, {}, {}, {})", static_cast<int>(a.air),
+                     num(a.air_height), vec3_text(a.aerosol_scattering), num(a.aerosol_height),
+                     num(a.aerosol_albedo), num(a.aerosol_forward), num(a.ozone),
+                     num(a.planet_radius), num(a.air_thickness), vec3_text(a.ground_albedo));
+}
+
+void set_values(const Scene& scene, const Relief& relief, float largest_feature, Landscape& out) {
+  const GroundMaterial& g = scene.ground;
+  const float margin = 0.06F * (relief.all.high - relief.all.low) + 20;
+  const auto add = [&](const char* name, std::string value, const char* comment) {
+    out.values.push_back({name, std::move(value), comment});
+  };
+  add("HIGHEST_LAND", num(relief.all.high + margin), "m, no land is higher");
+  add("LARGEST_FEATURE", num(largest_feature), "m, distance of the largest hills");
+  add("SOIL_COLOR_1", vec3_text(g.soil_color1), "colours: linear reflectance");
+  add("SOIL_COLOR_2", vec3_text(g.soil_color2), "");
+  add("GRASS_COLOR_1", vec3_text(g.grass_color1), "");
+  add("GRASS_COLOR_2", vec3_text(g.grass_color2), "");
+  add("ROCK_COLOR_1", vec3_text(g.rock_color1), "");
+  add("ROCK_COLOR_2", vec3_text(g.rock_color2), "");
+  add("SNOW_COLOR", vec3_text(g.snow_color), "");
+  add("CANOPY_COLOR_1", vec3_text(g.canopy_color1), "trees from afar");
+  add("CANOPY_COLOR_2", vec3_text(g.canopy_color2), "");
+  add("GRASS_COVER", num(g.grass_cover), "share of the soil under grass");
+  add("PATCH_SIZE", num(g.patch_size), "m, of grass on soil");
+  add("ROCK_FEATURE_SIZE", num(g.rock_feature_size), "m");
+  add("ROCK_SLOPE", range_text(g.rock_slope), "degrees: none below, all above");
+  add("ROCK_HEIGHT", range_text(g.rock_height), "m: none below, all above");
+  add("SNOW_HEIGHT", range_text(g.snow_height), "m: none below, all above");
+  add("SNOW_SLOPE", range_text(g.snow_slope), "degrees: all below, none above");
+  add("TREE_LINE", num(std::min({g.rock_height.low, g.snow_height.low, 1e5F})), "m");
+  add("HAS_WOODS", plants_trees(scene) ? "1" : "0", "");
+  const Clouds& c = scene.sky.clouds;
+  add("CLOUD_BILLOWS", num(c.billows), "depth of the notches in clouds");
+  add("CLOUD_ORDERS", fmt::format("{}", c.orders), "how often clouds scatter light");
+  add("CLOUD_SEED", fmt::format("{}u", c.seed), "where they stand");
+  add("MAX_CLOUD_DISTANCE", "90000.0", "m");
+  add("SUN_ILLUMINANCE", vec3_text(sun_outside(scene.sky)), "outside the air, klx");
+  add("NIGHT_BRIGHTNESS", "1e-6", "kcd/m²");
+  if (out.map) add("MAP_CELL", num(out.map->cell), "m between samples of the height map");
+}
+
+/// Snow that a step laid on the land, where the ground's own snow lies higher than the land.
+void add_snow(const Scene& scene, const Relief& relief, GroundMaterial& ground) {
+  if (ground.snow_height.low < relief.all.high) return;
+  for (const TerrainStep& step : scene.steps) {
+    if (step.op != "snow") continue;
+    const Value line = step.parameters.parameters().find("snow_line")->get(step.parameters.data());
+    const auto height = static_cast<float>(std::get<double>(line));
+    ground.snow_height = {height - 300, height + 300};
+  }
+}
+
+}  // namespace
+
+bool is_function(const Scene& scene) {
+  return land_function(scene.terrain, scene.steps, scene_operators(), scene.header.seed)
+      .left_out.empty();
+}
+
+Landscape landscape_of(const Scene& scene, const LandscapeOptions& options, Progress& progress) {
+  Landscape out;
+  out.title = std::filesystem::path(scene.source).filename().string();
+  const OperatorList operators = scene_operators();
+  LandFunction land = land_function(scene.terrain, scene.steps, operators, scene.header.seed);
+  out.left_out = land.left_out;
+  Relief relief;
+  float largest = land.largest_feature;
+  if (options.source == LandSource::map) {
+    const TerrainResult finished = build_terrain(scene, progress);
+    out.left_out.clear();
+    out.map = height_map(finished.field, options.map_size);
+    out.land = "#include \"landscape/height_map.glsl\"\n";
+    relief = relief_of(finished.field.height);
+    largest = 0.25F * static_cast<float>(finished.field.size().x);
+  } else {
+    std::vector<TerrainStep> steps = function_steps(scene, land);
+    if (!out.left_out.empty()) out.stand_in = stand_in(scene, steps, progress);
+    if (!out.stand_in.empty())
+      land = land_function(scene.terrain, steps, operators, scene.header.seed);
+    largest = land.largest_feature;
+    relief = survey(scene, steps, 4, progress);
+    out.land = land.text;
+  }
+  Scene dressed = scene;
+  add_snow(scene, relief, dressed.ground);
+  out.settings.trees = plants_trees(scene) ? 0.62F : 0.0F;
+  set_sky(scene, relief, out);
+  set_camera(scene, options.camera, relief, out);
+  set_values(dressed, relief, largest, out);
+  out.tables = fmt::format("const Atmosphere AIR = {};\n{}", air_text(shader_air(scene.sky)),
+                           light_tables(scene.sky));
+  return out;
+}
+
+std::string landscape_body(const Landscape& landscape, const std::vector<std::string>& uniforms) {
+  std::string text = "#define ZERO min(0, int(iTime))\n\n// Knobs\n\n" +
+                     knob_text(landscape.settings, uniforms) + "\n// Values of the scene\n\n";
+  for (const LandscapeValue& v : landscape.values)
+    text += v.comment.empty()
+                ? fmt::format("#define {} {}\n", v.name, v.value)
+                : fmt::format("{:<44} // {}\n", fmt::format("#define {} {}", v.name, v.value),
+                              v.comment);
+  text += "\n#include \"sky/atmosphere.glsl\"\n\n// The air and its light\n\n" + landscape.tables;
+  text += "\n// The land\n\n" + landscape.land;
+  text += "\n#include \"landscape/landscape.glsl\"\n";
+  return text;
+}
+
+}  // namespace wold

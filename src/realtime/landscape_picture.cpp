@@ -1,0 +1,122 @@
+#include "realtime/landscape_picture.hpp"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <array>
+
+#include "gpu/context.hpp"
+
+namespace wold {
+
+namespace {
+
+constexpr const char* before =
+    "uniform vec3 iResolution;\nuniform float iTime;\n"
+    "uniform vec4 iMouse;\n";
+constexpr const char* after =
+    "\nout vec4 shown;\nvoid main() {\n  mainImage(shown, gl_FragCoord.xy);\n}\n";
+
+GpuProgram program_of(const std::string& body) {
+  const ShaderDialect dialect = gpu_info().dialect;
+  return {assemble_shader("gpu/full_screen.vert.glsl", dialect),
+          assemble_shader_text("landscape", before + body + after, dialect)};
+}
+
+/// Each sample the mean of four.
+std::vector<float> halved(const std::vector<float>& fine, int width, int height) {
+  const int w = std::max(1, width / 2);
+  const int h = std::max(1, height / 2);
+  std::vector<float> out;
+  const auto at = [&](int i, int j) {
+    return fine[static_cast<std::size_t>(std::min(j, height - 1)) *
+                    static_cast<std::size_t>(width) +
+                static_cast<std::size_t>(std::min(i, width - 1))];
+  };
+  for (int j = 0; j < h; ++j)
+    for (int i = 0; i < w; ++i)
+      out.push_back(0.25F * (at(2 * i, 2 * j) + at(2 * i + 1, 2 * j) + at(2 * i, 2 * j + 1) +
+                             at(2 * i + 1, 2 * j + 1)));
+  return out;
+}
+
+GpuTexture texture_of(const HeightMap& map) {
+  GpuTexture texture(map.width, map.height,
+                     {.format = PixelFormat::r32f, .filter = TextureFilter::nearest, .levels = 0});
+  std::vector<float> values;
+  for (int j = 0; j < map.height; ++j)
+    for (int i = 0; i < map.width; ++i) values.push_back(map.at(i, j));
+  int width = map.width;
+  int height = map.height;
+  for (int level = 0;; ++level) {
+    texture.upload(std::span<const float>(values), 0, level);
+    if (width == 1 && height == 1) return texture;
+    values = halved(values, width, height);
+    width = std::max(1, width / 2);
+    height = std::max(1, height / 2);
+  }
+}
+
+}  // namespace
+
+LandscapeDrawing::LandscapeDrawing(const Landscape& landscape) : body_(landscape_body(landscape)) {
+  prepare(landscape.map);
+}
+
+LandscapeDrawing::LandscapeDrawing(const std::string& fragment, const std::optional<HeightMap>& map)
+    : body_(fragment) {
+  prepare(map);
+}
+
+void LandscapeDrawing::prepare(const std::optional<HeightMap>& map) {
+  if (map) map_ = texture_of(*map);
+}
+
+void LandscapeDrawing::draw(const GpuProgram& program, int width, int height, float time) const {
+  glDisable(GL_BLEND);
+  glDisable(GL_DEPTH_TEST);
+  program.set("iResolution", Vec3(width, height, 1));
+  program.set("iTime", time);
+  program.set("iMouse", Vec4(0));
+  if (map_) {
+    program.set("height_map", 0);
+    map_.bind(0);
+  }
+  draw_full_screen();
+}
+
+void LandscapeDrawing::draw(int width, int height, float time) const {
+  if (!flight_) flight_ = program_of(body_);
+  draw(flight_, width, height, time);
+}
+
+void LandscapeDrawing::draw(int width, int height, float time, const Camera& camera) const {
+  if (!free_) free_ = program_of("#define LANDSCAPE_CAMERA\n" + body_);
+  const Vec3 forward = glm::normalize(camera.direction);
+  free_.set("camera_place", Vec4(camera.position, 0));
+  free_.set("camera_forward", forward);
+  free_.set("camera_right", glm::normalize(glm::cross(forward, camera.up)));
+  draw(free_, width, height, time);
+}
+
+Image landscape_picture(const LandscapeDrawing& drawing, int width, int height, float time,
+                        const Camera* camera) {
+  const GpuTarget target(width, height, std::array{PixelFormat::rgba8}, false);
+  target.bind();
+  if (camera != nullptr)
+    drawing.draw(width, height, time, *camera);
+  else
+    drawing.draw(width, height, time);
+  const std::vector<float> values = target.read();
+  Image image(width, height, {"R", "G", "B"});
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::size_t k =
+          4 * (static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(x));
+      for (int c = 0; c < 3; ++c) image.at(x, y, c) = values[k + static_cast<std::size_t>(c)];
+    }
+  return image;
+}
+
+}  // namespace wold

@@ -1,0 +1,43 @@
+#pragma once
+// The landscape shader, drawn by OpenGL: into a picture, or into whatever target is bound.
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "gpu/objects.hpp"
+#include "image/image.hpp"
+#include "realtime/landscape.hpp"
+#include "render/camera.hpp"
+
+namespace wold {
+
+/// A program for one landscape. Needs a current context, at its end too.
+class LandscapeDrawing {
+ public:
+  /// Throws Error(internal) with the driver's log, in the names of our files and of "landscape".
+  explicit LandscapeDrawing(const Landscape& landscape);
+  /// `fragment` is a whole shader text that defines `mainImage` and needs nothing but Shadertoy's
+  /// uniforms: what was exported.
+  LandscapeDrawing(const std::string& fragment, const std::optional<HeightMap>& map);
+
+  /// Draws over the whole of the bound target, width x height pixels, `time` seconds into the
+  /// flight.
+  void draw(int width, int height, float time) const;
+  /// The same from a camera of the world's, whose place is measured from the terrain's middle.
+  void draw(int width, int height, float time, const Camera& camera) const;
+
+ private:
+  void prepare(const std::optional<HeightMap>& map);
+  void draw(const GpuProgram& program, int width, int height, float time) const;
+  std::string body_;
+  mutable GpuProgram flight_;  // each made when it is first wanted: drivers take seconds
+  mutable GpuProgram free_;
+  GpuTexture map_;
+};
+
+/// R, G, B as a display shows them.
+Image landscape_picture(const LandscapeDrawing& drawing, int width, int height, float time,
+                        const Camera* camera = nullptr);
+
+}  // namespace wold

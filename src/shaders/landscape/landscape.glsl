@@ -1,0 +1,111 @@
+// A landscape in one pass: the ray of a pixel meets the land, then its shadow is found, then it is
+// shaded, then comes the air before it, then clouds; one after the other, so that neighbouring
+// pixels stay together in each loop.
+#include "landscape/terrain.glsl"
+#include "landscape/ground.glsl"
+#include "landscape/light.glsl"
+#include "landscape/camera.glsl"
+
+// Evenly spread over pixels and their neighbours (Jimenez, "Next generation post processing in Call
+// of Duty: Advanced Warfare", SIGGRAPH 2014).
+float pixel_noise(vec2 pixel) {
+  return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
+}
+
+// Sun, sky from above, and what sunlit land opposite the sun throws back, all Lambert.
+vec3 shaded(vec3 albedo, vec3 normal, float open, float sunlit, Light light) {
+  vec3 sun = light.sun * max(dot(normal, light.direction), 0.0) * sunlit;
+  vec3 sky = light.sky * (0.5 + 0.5 * normal.z) * open;
+  vec3 away = normalize(vec3(-light.direction.xy, 0.0) + vec3(1e-4, 0.0, 0.0));
+  float facing = 0.35 + 0.65 * max(dot(normal, away), 0.0);
+  vec3 bounce = 0.16 * albedo * (light.sun * max(light.direction.z, 0.0) + light.sky) * facing *
+                (1.2 - normal.z) * open;
+  return albedo / 3.1416 * (sun + sky + bounce);
+}
+
+// Radiance of the land at distance t along the ray, before the air.
+vec3 land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angle, Light light,
+               float time) {
+  vec2 place = place_along(ray, t);
+  float pixel = pixel_angle * t;
+  vec3 fine, wide, hollow;
+  for (int k = ZERO; k < 3; ++k) {
+    float spacing = k == 0   ? max(finest_spacing(OCTAVES_NORMAL), 0.5 * pixel)
+                    : k == 1 ? max(8.0, pixel)
+                             : max(90.0, 4.0 * pixel);
+    vec3 ground = terrain(place, spacing);
+    if (k == 0) fine = ground;
+    else if (k == 1) wide = ground;
+    else hollow = ground;
+  }
+  vec2 curve = ray.direction.xy * t / AIR.planet_radius;
+  vec3 normal = normalize(vec3(curve - fine.yz, 1.0));
+
+  float height = height_along(ray, t);
+  LandRay sunward = LandRay(place, height + 0.3 + pixel, light.direction);
+  float facing = dot(normal, light.direction);
+  float sunlit = facing > 0.0 ? sun_shadow(sunward, pixel) : 0.0;
+  sunlit *= cloud_shadow(place, height, light.direction, time);
+
+  // A footprint at a silhouette would span to what lies behind.
+  float longest = 4.0 * pixel / max(abs(dot(normal, ray.direction)), 0.1);
+  across *= min(1.0, longest / max(length(across), 1e-6));
+  up *= min(1.0, longest / max(length(up), 1e-6));
+  vec3 albedo = filtered_color(place, across, up, wide, fine);
+  float open = clamp(0.9 + 0.012 * (fine.x - hollow.x), 0.4, 1.0);
+  return shaded(albedo, normal, open, sunlit, light);
+}
+
+// Clouds over what is behind them; nothing where the layer is not met.
+vec3 with_clouds(vec3 behind, LandRay ray, AirRay air, float reach, Light light, float start,
+                 float time) {
+#if CLOUD_STEPS > 0
+  if (CLOUD_COVERAGE <= 0.0) return behind;
+  AirSpan span = span_in_layer(AIR, air.height, air.cosine, CLOUDS_HEIGHT,
+                               CLOUDS_HEIGHT + CLOUDS_THICKNESS);
+  if (!(min(span.end, reach) > span.begin) || span.begin > MAX_CLOUD_DISTANCE) return behind;
+  Light above = light_at(light.direction, CLOUDS_HEIGHT + 0.5 * CLOUDS_THICKNESS);
+  vec3 on_ground = light.sky + max(light.direction.z, 0.0) * light.sun;
+  vec3 around = (light.sky + AIR.ground_albedo * on_ground) / 6.2832;
+  CloudLight clouds = clouds_seen(
+      landscape_clouds(), AIR, wind_place(ray.place, time), air, ray.direction, light.direction,
+      min(reach, span.begin + 20.0 * CLOUDS_THICKNESS), above.sun, around, start, CloudSteps(CLOUD_STEPS,
+                                                                         CLOUD_LIGHT_STEPS));
+  if (clouds.transmittance > 0.999) return behind;
+  AirLight before = air_between(air, span.begin, max(ATMOS_STEPS / 2, 2));
+  float far = smoothstep(0.6, 1.0, span.begin / MAX_CLOUD_DISTANCE);
+  vec3 seen = behind * clouds.transmittance + clouds.light * before.transmittance +
+              before.light * (1.0 - clouds.transmittance);
+  return mix(seen, behind, far);
+#else
+  return behind;
+#endif
+}
+
+vec3 landscape_color(vec2 pixel, vec2 resolution, vec4 mouse, float time) {
+  View view = landscape_view(resolution, mouse, time);
+  LandRay ray = LandRay(view.place, view.height, view_ray(view, pixel, resolution));
+  float pixel_angle =
+      2.0 * tan(0.5 * radians(FIELD_OF_VIEW)) / max(resolution.x, resolution.y);
+  Light light = light_at(sun_direction(time), view.height);
+
+  float t = march_terrain(ray, pixel_angle);
+  bool met = t > 0.0;
+  vec2 place = ray.direction.xy * t;
+  vec2 across = dFdx(place);
+  vec2 up = dFdy(place);
+
+  AirRay air = AirRay(ray.height, ray.direction.z, light.direction.z,
+                      dot(ray.direction, light.direction));
+  vec3 surface = met ? land_seen(ray, t, across, up, pixel_angle, light, time)
+                     : behind_air(air, light);
+  AirLight between = air_between(air, met ? t : 1e9, ATMOS_STEPS);
+  vec3 seen = surface * between.transmittance + between.light;
+  seen = with_clouds(seen, ray, air, met ? t : 1e9, light, pixel_noise(pixel), time);
+  vec3 shown = 1.0 - exp(-exposure_for(light) * max(seen, 0.0));
+  return srgb_encoded(shown) + (pixel_noise(pixel + 17.0) - 0.5) / 255.0;
+}
+
+void mainImage(out vec4 color, in vec2 pixel) {
+  color = vec4(landscape_color(pixel, iResolution.xy, iMouse, iTime), 1.0);
+}
