@@ -2,6 +2,7 @@
 // derivative by p (value, d/dx, d/dy). `octaves` takes the place of f.octaves; f.kind is not
 // read. The derivative of `eroded`, which needs second ones of the noise, is in eroded.glsl.
 #include "noise/octaves.glsl"
+#include "noise/quick_octaves.glsl"
 
 // Values with derivatives: a constant, a product, |a| (with its edge rounded by k).
 vec3 constant_sample2(float a) {
@@ -17,7 +18,7 @@ vec3 sample_absolute(vec3 a, float k) {
 }
 
 float fbm_value(LatticePlace2 p, Fractal f, uint seed, int octaves, float spacing) {
-  Octaves2 o = first_octave(p, f, seed);
+  ValueOctaves2 o = first_value_octave(p, f, seed);
   float total = 0.0;
   for (int i = 0; i < octaves; ++i, to_next(o)) {
     float weight = octave_weight(spacing * o.frequency);
@@ -28,7 +29,7 @@ float fbm_value(LatticePlace2 p, Fractal f, uint seed, int octaves, float spacin
 }
 
 float turbulence_value(LatticePlace2 p, Fractal f, uint seed, int octaves, float spacing) {
-  Octaves2 o = first_octave(p, f, seed);
+  ValueOctaves2 o = first_value_octave(p, f, seed);
   float total = 0.0;
   for (int i = 0; i < octaves; ++i, to_next(o)) {
     float weight = octave_weight(spacing * o.frequency);
@@ -39,7 +40,7 @@ float turbulence_value(LatticePlace2 p, Fractal f, uint seed, int octaves, float
 }
 
 float hybrid_value(LatticePlace2 p, Fractal f, uint seed, int octaves, float spacing) {
-  Octaves2 o = first_octave(p, f, seed);
+  ValueOctaves2 o = first_value_octave(p, f, seed);
   float total = 0.0;
   float w = 1.0;
   for (int i = 0; i < octaves; ++i, to_next(o)) {
@@ -53,7 +54,7 @@ float hybrid_value(LatticePlace2 p, Fractal f, uint seed, int octaves, float spa
 }
 
 float ridged_value(LatticePlace2 p, Fractal f, uint seed, int octaves, float spacing) {
-  Octaves2 o = first_octave(p, f, seed);
+  ValueOctaves2 o = first_value_octave(p, f, seed);
   float total = 0.0;
   float w = 1.0;
   for (int i = 0; i < octaves; ++i, to_next(o)) {

@@ -2,6 +2,7 @@
 // derivative by p (value, d/dx, d/dy, d/dz). `octaves` takes the place of f.octaves; f.kind is not
 // read. The derivative of `eroded`, which needs second ones of the noise, is in eroded.glsl.
 #include "noise/octaves.glsl"
+#include "noise/quick_octaves.glsl"
 
 // Values with derivatives: a constant, a product, |a| (with its edge rounded by k).
 vec4 constant_sample3(float a) {
@@ -17,7 +18,7 @@ vec4 sample_absolute(vec4 a, float k) {
 }
 
 float fbm_value(LatticePlace3 p, Fractal f, uint seed, int octaves, float spacing) {
-  Octaves3 o = first_octave(p, f, seed);
+  ValueOctaves3 o = first_value_octave(p, f, seed);
   float total = 0.0;
   for (int i = 0; i < octaves; ++i, to_next(o)) {
     float weight = octave_weight(spacing * o.frequency);
@@ -28,7 +29,7 @@ float fbm_value(LatticePlace3 p, Fractal f, uint seed, int octaves, float spacin
 }
 
 float turbulence_value(LatticePlace3 p, Fractal f, uint seed, int octaves, float spacing) {
-  Octaves3 o = first_octave(p, f, seed);
+  ValueOctaves3 o = first_value_octave(p, f, seed);
   float total = 0.0;
   for (int i = 0; i < octaves; ++i, to_next(o)) {
     float weight = octave_weight(spacing * o.frequency);
@@ -39,7 +40,7 @@ float turbulence_value(LatticePlace3 p, Fractal f, uint seed, int octaves, float
 }
 
 float hybrid_value(LatticePlace3 p, Fractal f, uint seed, int octaves, float spacing) {
-  Octaves3 o = first_octave(p, f, seed);
+  ValueOctaves3 o = first_value_octave(p, f, seed);
   float total = 0.0;
   float w = 1.0;
   for (int i = 0; i < octaves; ++i, to_next(o)) {
@@ -53,7 +54,7 @@ float hybrid_value(LatticePlace3 p, Fractal f, uint seed, int octaves, float spa
 }
 
 float ridged_value(LatticePlace3 p, Fractal f, uint seed, int octaves, float spacing) {
-  Octaves3 o = first_octave(p, f, seed);
+  ValueOctaves3 o = first_value_octave(p, f, seed);
   float total = 0.0;
   float w = 1.0;
   for (int i = 0; i < octaves; ++i, to_next(o)) {

@@ -227,21 +227,6 @@ void to_next(inout Octaves3 o) {
   ++o.index;
 }
 
-float octave_value(Octaves2 o, int basis) {
-  uvec2 cell = lattice_cell(o.place);
-  vec2 t = cell_fraction(o.place);
-  uint key = octave_key(o.seed, o.index);
-  return basis == noise_basis_gradient ? gradient_noise_value_in(cell, t, key)
-                                       : value_noise_value_in(cell, t, key);
-}
-float octave_value(Octaves3 o, int basis) {
-  uvec3 cell = lattice_cell(o.place);
-  vec3 t = cell_fraction(o.place);
-  uint key = octave_key(o.seed, o.index);
-  return basis == noise_basis_gradient ? gradient_noise_value_in(cell, t, key)
-                                       : value_noise_value_in(cell, t, key);
-}
-
 // With the derivative by p.
 vec3 octave_noise(Octaves2 o, int basis) {
   uvec2 cell = lattice_cell(o.place);
