@@ -64,7 +64,8 @@ class Builder {
   }
 
  private:
-  bool is_sheet(const PlantElement& e) const { return sheet_[e.part]; }
+  /// Leaves, and what has too few triangles to be a tube: the parts of a flower's head.
+  bool is_sheet(const PlantElement& e) const { return sheet_[e.part] || e.count <= simple_leaf; }
 
   /// Ranks by area, so that the kept area is the share, of leaves and wood each; stems have none.
   void order() {

@@ -70,6 +70,7 @@ class SurfaceMaterial {
   explicit SurfaceMaterial(const Material& material, float tint = 0);
 
   float roughness() const { return material_.roughness; }
+  float tint_amount() const { return tint_; }
   const Material& settings() const { return material_; }
   /// `p` in the model's own metres; `individual` and `leaf` number what the point belongs to.
   SurfaceColor at(Vec3 p, float footprint, std::uint32_t individual, std::uint32_t leaf) const;

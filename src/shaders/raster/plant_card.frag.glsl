@@ -1,0 +1,60 @@
+#ifndef DEPTH_ONLY
+#include "raster/plant_light.glsl"
+#include "raster/plant_material.glsl"
+#endif
+#include "raster/plant_place.glsl"
+
+in vec3 place;
+in vec2 card_place;
+flat in vec4 turn;
+flat in vec4 individual;
+flat in vec4 pictures;
+
+uniform vec4 card_shape;
+uniform vec3 card_transmission;
+uniform int card_layer;
+uniform mediump sampler2DArray card_albedo;
+uniform mediump sampler2DArray card_normal;
+uniform mediump sampler2DArray card_light;
+
+#ifndef DEPTH_ONLY
+layout(location = 0) out vec4 color;
+#endif
+
+const vec2 card_elevations = vec2(0.08, 0.75);
+
+// One of a lattice of numbers, even over [0, 1): M. Roberts, "The unreasonable effectiveness of
+// quasirandom sequences", 2018.
+float scattered(vec2 pixel) {
+  return fract(dot(pixel, vec2(0.7548776662, 0.5698402910)));
+}
+
+void main() {
+  vec2 pixel = floor(gl_FragCoord.xy);
+  float u = scattered(pixel + 61.0 * individual.zw);
+  if (scattered(pixel.yx + 17.0 * individual.wz) >= pictures.w) discard;
+  // A soft step: a picture is alone about its own direction.
+  float other = smoothstep(0.2, 0.8, pictures.y);
+  float row = fract(u * 7.31 + 0.37) < pictures.z ? 1.0 : 0.0;
+  float column = mod(pictures.x + (u < other ? 1.0 : 0.0), 8.0);
+  float elevation = row > 0.0 ? card_elevations.y : card_elevations.x;
+  float tall = 0.5 * (card_shape.z - card_shape.y) * cos(elevation) + card_shape.x * sin(elevation);
+  vec2 size = vec2(card_shape.x, tall);
+  vec2 uv = 0.5 + 0.5 * card_place / size;
+  float number = row * 8.0 + column;
+  vec2 corner = vec2(mod(number, 4.0), floor(number / 4.0));
+  vec3 at = vec3(0.25 * (corner + clamp(uv, 0.0, 1.0)), float(card_layer));
+  vec2 dx = 0.125 * dFdx(card_place) / size;
+  vec2 dy = 0.125 * dFdy(card_place) / size;
+  vec4 seen = textureGrad(card_albedo, at, dx, dy);
+  if (any(greaterThan(abs(uv - 0.5), vec2(0.5))) || seen.a < 0.5) discard;
+#ifndef DEPTH_ONLY
+  vec4 facing = textureGrad(card_normal, at, dx, dy);
+  vec4 let_in = textureGrad(card_light, at, dx, dy);
+  vec3 n = normalize(turned_by(turn, 2.0 * facing.xyz - 1.0));
+  vec4 crown_light = vec4(turned_by(turn, 4.0 * let_in.xyz - 2.0), let_in.w);
+  vec3 reflectance = seen.rgb * seen.rgb * material_tint(individual.zw, card_shape.w);
+  vec3 transmittance = reflectance * card_transmission * facing.a;
+  color = vec4(crown_radiance(place, n, reflectance, transmittance, crown_light, 1.0), 1.0);
+#endif
+}

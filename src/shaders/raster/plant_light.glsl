@@ -1,0 +1,46 @@
+// The light on leaves and wood within a crown.
+#include "raster/light.glsl"
+
+uniform vec2 crown_light_range;  // m; from here on the crown's own shade is not that of shadow maps
+uniform float crown_reach;       // m, from the plant's middle to its outside
+
+// Share of light from a direction that the crown lets through.
+float let_through(vec4 crown_light, vec3 direction) {
+  return clamp(crown_light.w + dot(crown_light.xyz, direction), 0.0, 1.0);
+}
+// Of the hemisphere about n, by cosine.
+float let_through_about(vec4 crown_light, vec3 n) {
+  return clamp(crown_light.w + 0.6667 * dot(crown_light.xyz, n), 0.02, 1.0);
+}
+
+// Near by, shadow maps have the leaves; farther off they are too coarse, and hold what stands
+// around.
+float crown_sun_share(vec3 place, vec3 normal, vec4 crown_light, float far_share) {
+  float near = far_share < 1.0 ? sun_share(place, normal) : 0.0;
+  if (far_share <= 0.0) return near;
+  float far = let_through(crown_light, sun_direction);
+  far *= sun_share(place + crown_reach * sun_direction, sun_direction);
+  return mix(near, far, far_share);
+}
+
+vec3 crown_ambient(vec3 place, vec3 normal, vec4 crown_light, vec3 albedo) {
+  float seen = min(let_through_about(crown_light, normal), sky_share(place, normal));
+  // What leaves around hide, they also scatter on: J. Jimenez et al., "Practical real-time
+  // strategies for accurate indirect occlusion", 2016.
+  return open_irradiance(normal) * seen / (1.0 - albedo * (1.0 - seen));
+}
+
+// `normal` looks towards the eye.
+vec3 crown_radiance(vec3 place, vec3 normal, vec3 reflectance, vec3 transmittance, vec4 crown_light,
+                    float far_share) {
+  float facing = dot(normal, sun_direction);
+  vec3 through = facing > 0.0 ? reflectance : transmittance;
+  vec3 albedo = reflectance + transmittance;
+  vec3 light = reflectance * crown_ambient(place, normal, crown_light, albedo);
+  if (transmittance.g > 0.0)
+    light += transmittance * crown_ambient(place, -normal, crown_light, albedo);
+  if (through.g > 0.0)
+    light += through * abs(facing) * sun_irradiance *
+             crown_sun_share(place, normal, crown_light, far_share);
+  return light / light_pi;
+}
