@@ -41,8 +41,12 @@ class SceneDrawing {
   std::size_t drawn_triangles() const;
 
  private:
+  void shade_land(const Ground& ground);
+  void set_sun();
+
   const PlantedWorld& world_;
   SceneLight light_;
+  SunShadowMap sun_shadows_;
   TerrainDrawing terrain_;
   PictureDrawing picture_;
 };

@@ -94,6 +94,7 @@ void SceneLight::apply(const GpuProgram& program) const {
   program.set("canopy_map", first_light_unit + 2);
   program.set("canopy_place", canopy_place_);
   if (canopy_map_) canopy_map_.bind(first_light_unit + 2);
+  terrain_shade_.apply(program, first_light_unit + 3);
 }
 
 }  // namespace wold

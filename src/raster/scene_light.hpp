@@ -8,6 +8,7 @@
 #include "raster/canopy_shade.hpp"
 #include "raster/draw_view.hpp"
 #include "raster/shadow_maps.hpp"
+#include "raster/terrain_shade.hpp"
 #include "sky/sky.hpp"
 
 namespace wold {
@@ -27,6 +28,8 @@ class SceneLight {
   void set_sky(Sky sky);
   void set_canopy(const CanopyShade& canopy);
   ShadowMaps& shadows() { return shadows_; }
+  /// What the land hides of sun and sky, beyond shadow maps.
+  TerrainShade& terrain_shade() { return terrain_shade_; }
   /// Turns the samples of shadows; another number for each frame.
   void set_frame(int frame) { frame_ = frame; }
 
@@ -43,6 +46,7 @@ class SceneLight {
   GpuTexture canopy_map_;
   Vec4 canopy_place_{0};
   ShadowMaps shadows_;
+  TerrainShade terrain_shade_;
   int frame_ = 0;
 };
 

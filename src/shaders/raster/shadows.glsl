@@ -1,4 +1,5 @@
 // What stands between a surface and the sun, or the sky (raster/shadow_maps.hpp, canopy_shade.hpp).
+#include "raster/terrain_shadow.glsl"
 #include "raster/view.glsl"
 
 const int cascades = 4;
@@ -68,9 +69,10 @@ float under_canopy(vec3 place) {
 }
 
 float sun_share(vec3 place, vec3 normal) {
-  return mapped_sun_share(place, normal);
+  float far = terrain_sun_share(place);
+  return far > 0.0 ? min(far, mapped_sun_share(place, normal)) : 0.0;
 }
 
 float sky_share(vec3 place, vec3 normal) {
-  return under_canopy(place);
+  return under_canopy(place) * terrain_sky_share(place);
 }
