@@ -100,7 +100,7 @@ class NoiseTwin : public testing::Test {
   /// `expression` of p (vec2 or vec3) gives vec3 or vec4, `value` the value alone.
   void compare(const std::string& name, int dimension, const std::string& expression,
                const std::string& value, const std::vector<Vec4>& points, const Function& function,
-               const std::string& declarations = {}) {
+               const std::string& declarations = {}) const {
     const std::string head = "#include \"noise/fractal.glsl\"\n" + declarations +
                              "vec4 evaluate(vec4 a, vec4 b) {\n  " +
                              (dimension == 2 ? "vec2 p = a.xy;" : "vec3 p = a.xyz;") + " return ";
@@ -130,7 +130,7 @@ class NoiseTwin : public testing::Test {
   }
 
   void compare_fractal(const std::string& name, const Fractal& f, int dimension,
-                       const std::vector<Vec4>& points, bool spaced = false) {
+                       const std::vector<Vec4>& points, bool spaced = false) const {
     constexpr std::uint32_t seed = 0xfedcba98U;
     const std::string declarations = fmt::format(
         "Fractal f() {{ return Fractal({}, {}, {}, {:#}, {:#}, {:#}, {:#}, {:#}, {:#}); }}\n",
