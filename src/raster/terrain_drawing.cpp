@@ -13,6 +13,8 @@ namespace wold {
 
 namespace {
 
+constexpr float shadow_coarseness = 2;
+
 GpuProgram terrain_program(const char* fragment) {
   const ShaderDialect dialect = gpu_info().dialect;
   return {assemble_shader("raster/terrain.vert.glsl", dialect), assemble_shader(fragment, dialect)};
@@ -67,7 +69,10 @@ const TerrainDrawing::TileMesh& TerrainDrawing::mesh(int cells) {
 }
 
 void TerrainDrawing::draw(const DrawView& view, const SceneLight* light) {
-  const TerrainChoice choice = levels_.choose(view, detail_);
+  // Shadow maps look all around the eye: coarser vertices, which the maps' bias covers.
+  TerrainDetail detail = detail_;
+  if (view.depth_only) detail.pixels_per_vertex *= shadow_coarseness;
+  const TerrainChoice choice = levels_.choose(view, detail);
   const TileMesh& grid = mesh(choice.cells);
   drawn_triangles_ = choice.tiles.size() * static_cast<std::size_t>(grid.index_count) / 3;
   if (choice.tiles.empty()) return;

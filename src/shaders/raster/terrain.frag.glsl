@@ -34,12 +34,14 @@ float pixel_footprint() {
 
 // The sun's glint and the sky's reflection in a clear coat (render/bsdf.hpp), and what it leaves of
 // the light below.
-vec3 coated(vec3 below, vec3 world, vec3 normal, vec3 to_eye, float roughness) {
+vec3 coated(vec3 below, vec3 world, vec3 normal, vec3 flat_normal, vec3 to_eye, float roughness) {
   float facing = max(dot(normal, to_eye), 1e-3);
   vec3 mirrored = reflect(-to_eye, normal);
   mirrored.z = max(mirrored.z, 0.01);
   float f = schlick(facing);
-  vec3 light = (1.0 - f) * below + f * sky_radiance(normalize(mirrored));
+  vec3 light = (1.0 - f) * below;
+  // What is mirrored down through the triangle is dark: a face of water between two levels.
+  if (dot(mirrored, flat_normal) > 0.0) light += f * sky_radiance(normalize(mirrored));
   float sun_facing = dot(normal, sun_direction);
   if (sun_facing <= 0.0) return light;
   float alpha = max(0.02, roughness * roughness);
@@ -55,12 +57,17 @@ vec3 coated(vec3 below, vec3 world, vec3 normal, vec3 to_eye, float roughness) {
 
 void main() {
   GroundSurface s = ground_surface(place, lift, pixel_footprint());
-  vec3 world = vec3(place + ground_anchor, height);
+  // Far away the triangles cut corners: what lies below the land itself would be in its shade.
+  vec3 world = vec3(place + ground_anchor, max(height, s.height));
   vec3 to_eye = normalize(vec3(terrain_eye - place, eye.z - height));
   // A normal that faces away, as at silhouettes, is brought to where the eye sees it.
   float facing = dot(s.normal, to_eye);
   if (facing < 0.01) s.normal = normalize(s.normal + (0.01 - facing) * to_eye);
   vec3 light = diffuse_radiance(world, s.normal, s.reflectance);
-  if (s.roughness > 0.0) light = coated(light, world, s.normal, to_eye, s.roughness);
+  vec3 drawn = vec3(place, height);
+  vec3 flat_normal = cross(dFdx(drawn), dFdy(drawn));
+  flat_normal *= flat_normal.z < 0.0 ? -1.0 : 1.0;
+  if (s.roughness > 0.0)
+    light = coated(light, world, s.normal, flat_normal, to_eye, s.roughness);
   color = vec4(light, 1.0);
 }
