@@ -20,5 +20,6 @@ void main() {
   vec3 transmittance = plant_transmission(material) * own_tint;
   keep_energy(reflectance, transmittance);
   float far_share = smoothstep(crown_light_range.x, crown_light_range.y, length(to_eye));
-  color = vec4(crown_radiance(place, n, reflectance, transmittance, crown_light, far_share), 1.0);
+  color = vec4(
+      crown_radiance(place, n, 0.0, reflectance, transmittance, crown_light, far_share), 1.0);
 }

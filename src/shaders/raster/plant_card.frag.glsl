@@ -51,10 +51,15 @@ void main() {
 #ifndef DEPTH_ONLY
   vec4 facing = textureGrad(card_normal, at, dx, dy);
   vec4 let_in = textureGrad(card_light, at, dx, dy);
-  vec3 n = normalize(turned_by(turn, 2.0 * facing.xyz - 1.0));
+  vec3 mean = turned_by(turn, 2.0 * facing.xyz - 1.0);
+  float even = length(mean);
+  vec3 n = mean / max(even, 1e-3);
+  // Of leaves that look everywhere the mean has length 2/3.
+  float spread = clamp(3.0 * (1.0 - even), 0.0, 1.0);
   vec4 crown_light = vec4(turned_by(turn, 4.0 * let_in.xyz - 2.0), let_in.w);
   vec3 reflectance = seen.rgb * seen.rgb * material_tint(individual.zw, card_shape.w);
   vec3 transmittance = reflectance * card_transmission * facing.a;
-  color = vec4(crown_radiance(place, n, reflectance, transmittance, crown_light, 1.0), 1.0);
+  color = vec4(
+      crown_radiance(place, n, spread, reflectance, transmittance, crown_light, 1.0), 1.0);
 #endif
 }

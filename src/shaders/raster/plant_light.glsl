@@ -30,17 +30,28 @@ vec3 crown_ambient(vec3 place, vec3 normal, vec4 crown_light, vec3 albedo) {
   return open_irradiance(normal) * seen / (1.0 - albedo * (1.0 - seen));
 }
 
-// `normal` looks towards the eye.
-vec3 crown_radiance(vec3 place, vec3 normal, vec3 reflectance, vec3 transmittance, vec4 crown_light,
-                    float far_share) {
+// Mean of the cosine to the sun over leaves that look everywhere, as seen from the eye: of those lit
+// on the side that is seen, and of those lit from behind (Ross, 1981).
+vec2 spread_cosines(float cosine) {
+  float angle = acos(clamp(cosine, -1.0, 1.0));
+  float s = sin(angle);
+  return vec2((light_pi - angle) * cosine + s, s - angle * cosine) * (2.0 / (3.0 * light_pi));
+}
+
+// `normal` looks towards the eye; `spread`: 0 where all that is seen has it, 1 where it is but the
+// mean of leaves that look everywhere.
+vec3 crown_radiance(vec3 place, vec3 normal, float spread, vec3 reflectance, vec3 transmittance,
+                    vec4 crown_light, float far_share) {
   float facing = dot(normal, sun_direction);
-  vec3 through = facing > 0.0 ? reflectance : transmittance;
+  vec2 cosines = vec2(max(facing, 0.0), max(-facing, 0.0));
+  if (spread > 0.0)
+    cosines = mix(cosines, spread_cosines(dot(normalize(eye - place), sun_direction)), spread);
+  vec3 scattered = reflectance * cosines.x + transmittance * cosines.y;
   vec3 albedo = reflectance + transmittance;
   vec3 light = reflectance * crown_ambient(place, normal, crown_light, albedo);
   if (transmittance.g > 0.0)
     light += transmittance * crown_ambient(place, -normal, crown_light, albedo);
-  if (through.g > 0.0)
-    light += through * abs(facing) * sun_irradiance *
-             crown_sun_share(place, normal, crown_light, far_share);
+  if (scattered.g > 0.0)
+    light += scattered * sun_irradiance * crown_sun_share(place, normal, crown_light, far_share);
   return light / light_pi;
 }
