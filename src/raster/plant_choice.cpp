@@ -290,6 +290,7 @@ PlantSizes plant_sizes(const PlantLevels& levels) {
   s.middle = 0.5F * (levels.low + levels.high);
   s.radius = 0.6F * glm::length(size);  // leaves that grow stand out a little
   s.height = std::max(levels.high.z, 1e-3F);
+  s.area = levels.area;
   s.crown = 0.5F * (size.x + size.y) * size.z;
   return s;
 }
@@ -339,13 +340,17 @@ PlantField::PlantField(std::span<const ModelInstance> instances,
   for (std::size_t c = 0; c + 1 < start.size(); ++c) {
     Cell cell{start[c], start[c + 1] - start[c], Vec3(1e30F), Vec3(-1e30F)};
     if (cell.count == 0) continue;
+    float crowd = 0;
     for (std::uint32_t k = cell.first; k < cell.first + cell.count; ++k) {
       const Plant& p = plants_[k];
       const PlantSizes& size = sizes[p.model];
       const float reach = p.drawn.scale * (size.radius + glm::length(size.middle));
+      if (!size.card) crowd += size.area * p.drawn.scale * p.drawn.scale / (step * step);
       cell.low = glm::min(cell.low, p.drawn.position - reach);
       cell.high = glm::max(cell.high, p.drawn.position + reach);
     }
+    for (std::uint32_t k = cell.first; k < cell.first + cell.count; ++k)
+      if (!sizes[plants_[k].model].card) plants_[k].drawn.crowd = crowd;
     cells_.push_back(cell);
   }
 }

@@ -40,7 +40,7 @@ struct DrawnPlant {
   Vec2 texture{0};                      ///< its piece of the materials' textures, in [0, 1)²
   std::array<std::uint32_t, 2> bits{};  ///< of the individual, low and high
   float growth = 1;                     ///< in area, for others that were left out
-  float padding = 0;
+  float crowd = 0;                      ///< leaf area of small plants per m² of ground here
 };
 static_assert(sizeof(DrawnPlant) == 64);
 
@@ -67,6 +67,7 @@ struct PlantSizes {
   float radius = 0;  ///< m, about the middle, holds all at any share
   float height = 0;  ///< m
   float crown = 0;   ///< m², seen from the side
+  float area = 0;    ///< m² of leaves
   bool card = false;
 };
 

@@ -13,9 +13,10 @@ layout(location = 6) in vec4 plant_at;    // m; w: scale
 layout(location = 7) in vec4 plant_turn;  // quaternion
 layout(location = 8) in vec4 plant_share;  // of leaves; part drawn; place in textures
 layout(location = 9) in uvec2 plant_bits;
-layout(location = 10) in vec2 plant_growth;
+layout(location = 10) in vec2 plant_growth;  // in area; leaf area of others around
 
 uniform int first_material;
+uniform float plant_height;  // m, of the model
 uniform mat4 from_eye;  // view_projection of what is relative to the eye
 
 #ifndef DEPTH_ONLY
@@ -38,6 +39,9 @@ void main() {
   model_place = vertex_position + 100.0 * vec3(plant_share.zw, 0.0);
   normal = turned_by(plant_turn, vertex_normal.xyz);
   crown_light = vec4(turned_by(plant_turn, vertex_light.xyz * (127.0 / 63.0)), vertex_light.w);
+  // Among others of its size the sky is seen through those above (Monsi, Saeki, 1953).
+  float above = plant_growth.y * clamp(1.0 - p.z / plant_height, 0.0, 1.0);
+  crown_light *= exp(-0.9 * above);
   material = first_material + int(vertex_identity >> 24u);
   footprint_scale = 1.0 / plant_at.w;
   // Fewer leaves differ less, so that what is seen of many together differs as before (Cook et al.,
