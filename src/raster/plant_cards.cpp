@@ -152,8 +152,9 @@ CardShape card_shape(const PlantLevels& levels, const std::vector<SurfaceMateria
   for (const std::uint32_t index : levels.materials) {
     const Material& m = materials[index].settings();
     s.tint = std::max(s.tint, materials[index].tint_amount());
-    if (m.transmission != Vec3(0) && s.transmission == Vec3(0))
-      s.transmission = m.transmission / glm::max(0.5F * (m.color1 + m.color2), Vec3(1e-3F));
+    if (m.transmission == Vec3(0) || s.transmission != Vec3(0)) continue;
+    s.roughness = m.roughness;
+    s.transmission = m.transmission / glm::max(0.5F * (m.color1 + m.color2), Vec3(1e-3F));
   }
   return s;
 }
@@ -246,6 +247,7 @@ void PlantCards::draw(int model, const DrawView& view, const SceneLight* light,
               parallel ? Vec4(glm::normalize(Vec3(m[0][2], m[1][2], m[2][2])), 1) : Vec4(0));
   program.set("card_shape", Vec4(shape.radius, shape.low, shape.high, shape.tint));
   program.set("card_transmission", shape.transmission);
+  program.set("card_roughness", shape.roughness);
   program.set("card_layer", model);
   program.set("crown_reach", shape.radius);
   const std::array<std::pair<const char*, const GpuTexture*>, 3> textures{

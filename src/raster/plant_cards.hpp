@@ -23,6 +23,7 @@ struct CardShape {
   float low = 0;         ///< m
   float high = 1;        ///< m
   Vec3 transmission{0};  ///< of leaves, relative to their reflectance
+  float roughness = 0;   ///< of leaves
   float tint = 0;        ///< between individuals
 };
 

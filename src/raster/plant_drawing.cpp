@@ -15,7 +15,7 @@ namespace wold {
 namespace {
 
 constexpr int material_unit = 0;
-constexpr std::size_t texels_per_material = 4;
+constexpr std::size_t texels_per_material = 5;
 // Shadow maps are fine enough for leaves up to here.
 constexpr Vec2 crown_light_range{35, 55};  // m
 
@@ -42,6 +42,7 @@ std::vector<float> material_texels(const std::vector<const SurfaceMaterial*>& ma
     put(m.transmission, m.stretch);
     put({m.variation, material->tint_amount(), static_cast<float>(seed >> 16U)},
         static_cast<float>(seed & 0xffffU));
+    put(Vec3(m.roughness, 0, 0), 0);
   }
   return texels;
 }

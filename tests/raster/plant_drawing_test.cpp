@@ -44,6 +44,7 @@ World world_of(const std::string& name, float tall) {
       m.color1 = 0.8F * p->reflectance;
       m.color2 = 1.2F * p->reflectance;
       m.transmission = p->transmittance;
+      m.roughness = p->roughness;
     }
     model.part_materials.push_back(static_cast<std::uint32_t>(world.materials.size()));
     world.materials.emplace_back(m, 0.0F);
@@ -226,7 +227,7 @@ TEST_P(PlantPictureOf, WithFewerLeavesAndOnACardLooksAsInFull) {
     ASSERT_EQ(plants.choice().triangles, 2U);
     EXPECT_NEAR(card.coverage, mesh.coverage, 0.12 * mesh.coverage) << turn;
     for (int c = 0; c < 3; ++c)
-      EXPECT_NEAR(card.color[c], mesh.color[c], 0.15 * mesh.color[c]) << turn;
+      EXPECT_NEAR(card.color[c], mesh.color[c], 0.18 * mesh.color[c]) << turn;
   }
 }
 

@@ -21,5 +21,7 @@ void main() {
   keep_energy(reflectance, transmittance);
   float far_share = smoothstep(crown_light_range.x, crown_light_range.y, length(to_eye));
   color = vec4(
-      crown_radiance(place, n, 0.0, reflectance, transmittance, crown_light, far_share), 1.0);
+      crown_radiance(place, n, 0.0, reflectance, transmittance, plant_roughness(material),
+                     crown_light, far_share),
+      1.0);
 }

@@ -12,6 +12,7 @@ flat in vec4 pictures;
 
 uniform vec4 card_shape;
 uniform vec3 card_transmission;
+uniform float card_roughness;
 uniform int card_layer;
 uniform mediump sampler2DArray card_albedo;
 uniform mediump sampler2DArray card_normal;
@@ -60,6 +61,8 @@ void main() {
   vec3 reflectance = seen.rgb * seen.rgb * material_tint(individual.zw, card_shape.w);
   vec3 transmittance = reflectance * card_transmission * facing.a;
   color = vec4(
-      crown_radiance(place, n, spread, reflectance, transmittance, crown_light, 1.0), 1.0);
+      crown_radiance(place, n, spread, reflectance, transmittance, card_roughness * facing.a,
+                     crown_light, 1.0),
+      1.0);
 #endif
 }

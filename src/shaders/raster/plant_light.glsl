@@ -38,10 +38,30 @@ vec2 spread_cosines(float cosine) {
   return vec2((light_pi - angle) * cosine + s, s - angle * cosine) * (2.0 / (3.0 * light_pi));
 }
 
+// What the waxy coat of leaves mirrors, over what is below it (render/bsdf.hpp; the sky's part by its
+// irradiance about the mirrored direction). Of leaves that look everywhere, the mean: 0.086 of the
+// sky, and of the sun F / (4 π) from those that lie right for it.
+vec3 crown_coated(vec3 below, vec3 normal, float spread, vec3 to_eye, float roughness, vec3 sky_seen,
+                  vec3 sun_seen) {
+  float facing = max(dot(normal, to_eye), 0.05);
+  float mirrored = mix(0.04 + 0.96 * pow(1.0 - facing, 5.0), 0.086, spread);
+  vec3 light = below * (1.0 - mirrored) + sky_seen * (mirrored / light_pi);
+  vec3 half_way = normalize(to_eye + sun_direction);
+  float a2 = pow(roughness, 4.0);
+  float cosine = max(dot(normal, half_way), 0.0);
+  float d = cosine * cosine * (a2 - 1.0) + 1.0;
+  float across = max(dot(to_eye, half_way), 0.1);
+  float fresnel = 0.04 + 0.96 * pow(1.0 - across, 5.0);
+  // Visibility after C. Kelemen, L. Szirmay-Kalos, Eurographics 2001.
+  float lobe = a2 / (light_pi * d * d) / (4.0 * across * across) *
+               max(dot(normal, sun_direction), 0.0);
+  return light + sun_seen * fresnel * mix(lobe, 0.25 / light_pi, spread);
+}
+
 // `normal` looks towards the eye; `spread`: 0 where all that is seen has it, 1 where it is but the
 // mean of leaves that look everywhere.
 vec3 crown_radiance(vec3 place, vec3 normal, float spread, vec3 reflectance, vec3 transmittance,
-                    vec4 crown_light, float far_share) {
+                    float roughness, vec4 crown_light, float far_share) {
   float facing = dot(normal, sun_direction);
   vec2 cosines = vec2(max(facing, 0.0), max(-facing, 0.0));
   if (spread > 0.0)
@@ -51,7 +71,13 @@ vec3 crown_radiance(vec3 place, vec3 normal, float spread, vec3 reflectance, vec
   vec3 light = reflectance * crown_ambient(place, normal, crown_light, albedo);
   if (transmittance.g > 0.0)
     light += transmittance * crown_ambient(place, -normal, crown_light, albedo);
+  vec3 sun = vec3(0.0);
   if (scattered.g > 0.0)
-    light += scattered * sun_irradiance * crown_sun_share(place, normal, crown_light, far_share);
-  return light / light_pi;
+    sun = sun_irradiance * crown_sun_share(place, normal, crown_light, far_share);
+  light = (light + scattered * sun) / light_pi;
+  if (roughness <= 0.0) return light;
+  vec3 to_eye = normalize(eye - place);
+  vec3 mirrored = reflect(-to_eye, normal);
+  vec3 sky_seen = crown_ambient(place, mirrored, crown_light, vec3(0.0));
+  return crown_coated(light, normal, spread, to_eye, roughness, sky_seen, sun);
 }

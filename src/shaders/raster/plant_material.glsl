@@ -1,4 +1,4 @@
-// Materials of plants, four texels of a row for each: what SurfaceMaterial has.
+// Materials of plants, five texels of a row for each: what SurfaceMaterial has.
 #include "render/material.glsl"
 
 uniform sampler2D plant_materials;
@@ -17,4 +17,7 @@ vec3 plant_transmission(int row) {
 // Amounts of difference between leaves, and between individuals.
 vec2 plant_variation(int row) {
   return texelFetch(plant_materials, ivec2(3, row), 0).xy;
+}
+float plant_roughness(int row) {
+  return texelFetch(plant_materials, ivec2(4, row), 0).x;
 }
