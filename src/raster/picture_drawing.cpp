@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "gpu/context.hpp"
+#include "render/film.hpp"
 
 namespace wold {
 
@@ -33,6 +34,12 @@ Vec2 jitter_of(int frame) {
 bool same(const Camera& a, const Camera& b) {
   return a.position == b.position && a.direction == b.direction && a.up == b.up &&
          a.field_of_view == b.field_of_view;
+}
+
+void in_white_luminances(Image& image) {
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < 3; ++c) image.at(x, y, c) /= white_luminance;
 }
 
 GpuProgram full_screen(const char* fragment) {
@@ -144,6 +151,7 @@ Image PictureDrawing::linear_image() const {
     std::copy_n(pixels.begin() +
                     static_cast<std::ptrdiff_t>(row * static_cast<std::size_t>(height_ - 1 - y)),
                 row, image.row(y).begin());
+  in_white_luminances(image);
   return image;
 }
 
@@ -153,7 +161,7 @@ void PictureDrawing::show(int width, int height, const ToneMapping& mapping, flo
   glDisable(GL_BLEND);
   display_.set("picture", 0);
   mean().color().bind(0);
-  display_.set("exposure", std::exp2(stops));
+  display_.set("exposure", std::exp2(stops) / white_luminance);
   display_.set("tone_map", static_cast<int>(mapping.tone_map));
   draw_full_screen();
 }
@@ -174,6 +182,7 @@ float PictureDrawing::metered_exposure() const {
   Image image(small.width(), small.height(), {"R", "G", "B", "A"});
   // Upside down: metering by cover does not mind.
   image.pixels = pixels;
+  in_white_luminances(image);
   return measured_exposure(image, land_weights(image));
 }
 

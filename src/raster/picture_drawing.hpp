@@ -52,7 +52,8 @@ class PictureDrawing {
 
   void set_quality(const PictureQuality& quality) { quality_ = quality; }
 
-  /// R, G, B in cd/m² and A, the part that is surface: as the film of the path tracer has them.
+  /// R, G, B divided by `white_luminance`, and A, the part that is surface: as Film::image has
+  /// them.
   Image linear_image() const;
   /// Brings the picture into the framebuffer that is bound, of that size.
   void show(int width, int height, const ToneMapping& mapping, float stops) const;

@@ -22,9 +22,10 @@ SceneDrawing::SceneDrawing(const PlantedWorld& world, const SceneDetail& detail,
   shade_land(world.world().ground);
 }
 
-void SceneDrawing::draw(const Camera& camera) {
-  picture_.draw(camera, [this](const DrawView& view, const SceneLight* light) {
+void SceneDrawing::draw(const Camera& camera, const std::function<void(const DrawView&)>& extra) {
+  picture_.draw(camera, [&](const DrawView& view, const SceneLight* light) {
     terrain_.draw(view, light);
+    if (extra && light != nullptr) extra(view);
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // A scene drawn in real time: its land, its plants, its light.
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -28,7 +29,8 @@ class SceneDrawing {
   void resize(int width, int height) { picture_.resize(width, height); }
   /// Draws one frame more (PictureDrawing::draw). Plants that stand around the eye only are found
   /// anew once it has moved on.
-  void draw(const Camera& camera);
+  /// `extra`, if given, draws more surfaces, seen but without shadows.
+  void draw(const Camera& camera, const std::function<void(const DrawView&)>& extra = {});
 
   /// Another moment over the same land.
   void set_sky(const SkySettings& sky);

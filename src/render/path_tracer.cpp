@@ -125,6 +125,24 @@ Vec3 direct_light(const RayScene& scene, const SurfacePoint& surface, const Bsdf
   return both ? light : 2.0F * light;
 }
 
+/// Adds where a ray came to, and before the first where it began.
+void record(const RayScene& scene, const Ray& ray, const Hit& hit,
+            std::vector<PathVertex>& vertices, RayCount& count) {
+  constexpr float way_out = 100;  // m
+  if (vertices.empty()) vertices.push_back({ray.origin, false, false});
+  if (!hit.valid()) {
+    vertices.push_back({ray.origin + way_out * ray.direction, false, false});
+    return;
+  }
+  const Sky& sky = scene.world().sky;
+  const Vec3 normal = glm::dot(hit.normal, ray.direction) > 0 ? -hit.normal : hit.normal;
+  const Vec3 above = hit.position + clearance(hit.position) * normal;
+  const bool lit = sky.sun_visible() && glm::dot(normal, sky.sun_direction()) > 0 &&
+                   !scene.occluded({above, sky.sun_direction()}, 0,
+                                   std::numeric_limits<float>::infinity(), count);
+  vertices.push_back({hit.position, true, lit});
+}
+
 }  // namespace
 
 SurfacePoint surface_at(const World& world, const Hit& hit, Vec3 view_direction, float footprint) {
@@ -147,6 +165,7 @@ PathSample trace_path(const RayScene& scene, const PathSettings& settings, const
   float footprint = 0;
   for (int bounce = 0;; ++bounce) {
     const Hit hit = scene.intersect(ray, 0, bounce == 0, count);
+    if (settings.vertices != nullptr) record(scene, ray, hit, *settings.vertices, count);
     if (!hit.valid()) {
       if (bounce == 0) {
         sampler.skip_to(camera_pairs);

@@ -7,14 +7,24 @@
 //   surface. Russian roulette by throughput from the second bounce on. Air between surfaces by
 //   Sky::air_light.
 
+#include <vector>
+
 #include "render/film.hpp"
 #include "render/ray_scene.hpp"
 #include "render/sampler.hpp"
 
 namespace wold {
 
+/// A place that a path came to, for those who want to see paths.
+struct PathVertex {
+  Vec3 position{0};     ///< m
+  bool surface = true;  ///< else where the path left into the sky, drawn a way out
+  bool sees_sun = false;
+};
+
 struct PathSettings {
-  int max_bounces = 6;  ///< surfaces that a path may meet after the first
+  int max_bounces = 6;                          ///< surfaces that a path may meet after the first
+  std::vector<PathVertex>* vertices = nullptr;  ///< takes the path's, from the eye on, if given
 };
 
 /// What is seen at a hit, ready to scatter light.

@@ -8,6 +8,7 @@
 #include "base/parallel.hpp"
 #include "render/ground_mesh.hpp"
 #include "scene/build.hpp"
+#include "scene/same_scene.hpp"
 #include "scene/scene_maps.hpp"
 
 namespace wold {
@@ -103,24 +104,40 @@ GroundMaterial ground_material(const Scene& scene) {
 
 }  // namespace
 
-PlantedWorld::PlantedWorld(Scene scene, Progress& progress) : scene_(std::move(scene)) {
+void PlantedWorld::build_land(const PlantedWorld* before, Progress& progress) {
+  if (before != nullptr && same_land(before->scene_, scene_)) {
+    land_ = before->land_;
+    return;
+  }
+  land_ = std::make_shared<Land>();
+  land_->inner = build_terrain(scene_, progress);
+  land_->outer = build_surroundings(scene_, progress);
+}
+
+PlantModels PlantedWorld::models_like(const PlantedWorld* before, Progress& progress) const {
+  if (before == nullptr || !same_models(before->scene_, scene_))
+    return build_models(scene_, progress);
+  return {before->world_->models, before->world_->materials, before->first_model_};
+}
+
+PlantedWorld::PlantedWorld(Scene scene, Progress& progress, const PlantedWorld* before)
+    : scene_(std::move(scene)) {
   check_scene(scene_);
-  TerrainResult terrain =
-      timed(seconds_, "terrain", [&] { return build_terrain(scene_, progress); });
-  TerrainResult around =
-      timed(seconds_, "terrain", [&] { return build_surroundings(scene_, progress); });
-  GroundDressing dressing = dress(scene_, terrain, around, progress);
-  maps_ = std::move(terrain.maps);
-  PlantModels models = timed(seconds_, "plants", [&] { return build_models(scene_, progress); });
+  timed(seconds_, "terrain", [&] {
+    build_land(before, progress);
+    return 0;
+  });
+  GroundDressing dressing = dress(scene_, land_->inner, land_->outer, progress);
+  PlantModels models = timed(seconds_, "plants", [&] { return models_like(before, progress); });
   first_model_ = std::move(models.first_model);
   world_ = std::make_unique<World>(
-      World{Ground(std::move(terrain.field), std::move(around.field), ground_material(scene_),
+      World{Ground(land_->inner.field, land_->outer.field, ground_material(scene_),
                    scene_.header.seed, std::move(dressing)),
             std::move(models.materials),
             std::move(models.list),
             {},
             Sky(scene_.sky)});
-  planter_ = std::make_unique<Planter>(scene_, world_->ground.field(), maps_);
+  planter_ = std::make_unique<Planter>(scene_, world_->ground.field(), land_->inner.maps);
   world_->instances =
       timed(seconds_, "scatter", [&] { return placed(Planting::everywhere, DVec2(0), progress); });
   count(world_->instances);
@@ -147,6 +164,7 @@ void PlantedWorld::count(const std::vector<ModelInstance>& plants) {
 }
 
 const ModelTrees& PlantedWorld::trees(Progress& progress) {
+  const std::scoped_lock lock(trees_mutex_);
   if (!trees_)
     trees_ = timed(seconds_, "ray tracer",
                    [&] { return std::make_unique<ModelTrees>(world_->models, progress); });
@@ -210,13 +228,15 @@ PlantedWorld::Parts PlantedWorld::parts_for(const Camera& camera, IVec2 size,
   plants.insert(plants.end(), around.begin(), around.end());
   const CameraRays rays(camera, size.x, size.y);
   set_on_drawn_ground(plants, camera.position, scene_.render.dicing * rays.pixel_angle());
-  return {std::move(world_), std::move(trees_), std::move(maps_), std::move(seconds_),
+  return {std::move(world_), std::move(trees_), std::move(land_->inner.maps), std::move(seconds_),
           std::move(plants_)};
 }
 
-TracedWorld PlantedWorld::traced(const Camera& camera, IVec2 size, Progress& progress) {
+TracedWorld PlantedWorld::traced(const Camera& camera, IVec2 size, Progress& progress,
+                                 const SkySettings* sky) {
   TracedWorld out;
   out.world = std::make_unique<World>(*world_);
+  if (sky != nullptr) out.world->sky = Sky(*sky);
   std::vector<ModelInstance>& plants = out.world->instances;
   const std::vector<ModelInstance> around =
       plants_near(DVec2(camera.position.x, camera.position.y), progress);

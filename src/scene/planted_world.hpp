@@ -8,6 +8,7 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -25,15 +26,17 @@ struct TracedWorld {
 
 class PlantedWorld {
  public:
-  /// Builds terrain, models and plants. Throws as `check_scene` and the operators.
-  PlantedWorld(Scene scene, Progress& progress);
+  /// Builds terrain, models and plants. What is the same in the scene of `before` is taken from it
+  /// (plant files that changed on disk are not seen then). Throws as `check_scene` and the
+  /// operators.
+  PlantedWorld(Scene scene, Progress& progress, const PlantedWorld* before = nullptr);
   PlantedWorld(const PlantedWorld&) = delete;
   PlantedWorld& operator=(const PlantedWorld&) = delete;
 
   const Scene& scene() const { return scene_; }
   const World& world() const { return *world_; }
   /// Maps of the terrain's steps, over world().ground.field().
-  const std::map<std::string, Grid<float>>& maps() const { return maps_; }
+  const std::map<std::string, Grid<float>>& maps() const { return land_->inner.maps; }
   /// By stage.
   const std::map<std::string, double>& seconds() const { return seconds_; }
   /// Plants in world() by species.
@@ -48,7 +51,9 @@ class PlantedWorld {
   void set_on_drawn_ground(std::vector<ModelInstance>& plants, Vec3 eye, float spacing_angle) const;
 
   /// The world as the path tracer sees it from a camera; this must outlive it. `size` in pixels.
-  TracedWorld traced(const Camera& camera, IVec2 size, Progress& progress);
+  /// Any thread. `sky`, if given, in place of the scene's.
+  TracedWorld traced(const Camera& camera, IVec2 size, Progress& progress,
+                     const SkySettings* sky = nullptr);
 
   /// What `traced` has built so far, with the ray tracer's trees of models, for one camera whose
   /// plants are already in the world. Leaves this without its world.
@@ -62,6 +67,14 @@ class PlantedWorld {
   Parts parts_for(const Camera& camera, IVec2 size, Progress& progress) &&;
 
  private:
+  /// What the terrain's steps made, within and around.
+  struct Land {
+    TerrainResult inner;
+    TerrainResult outer;
+  };
+
+  void build_land(const PlantedWorld* before, Progress& progress);
+  PlantModels models_like(const PlantedWorld* before, Progress& progress) const;
   const ModelTrees& trees(Progress& progress);
   std::vector<ModelInstance> placed(Planting which, DVec2 eye, Progress& progress) const;
   void count(const std::vector<ModelInstance>& plants);
@@ -69,9 +82,10 @@ class PlantedWorld {
 
   Scene scene_;
   std::unique_ptr<World> world_;
-  std::map<std::string, Grid<float>> maps_;
+  std::shared_ptr<Land> land_;
   std::vector<std::uint32_t> first_model_;
   std::unique_ptr<Planter> planter_;
+  std::mutex trees_mutex_;  // guards trees_ and its time while pictures are made
   std::unique_ptr<ModelTrees> trees_;
   std::map<std::string, double> seconds_;
   std::map<std::string, std::uint64_t> plants_;

@@ -6,6 +6,7 @@
 #include "gpu/context.hpp"
 #include "image/color.hpp"
 #include "image/tonemap.hpp"
+#include "render/film.hpp"
 
 namespace wold {
 namespace {
@@ -30,7 +31,7 @@ SkySettings settings_of(SkyModel model) {
 }
 
 Vec3 pixel(const Image& image, int x, int y) {
-  return {image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)};
+  return white_luminance * Vec3(image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2));
 }
 
 class PictureOf : public testing::TestWithParam<SkyModel> {
@@ -125,7 +126,7 @@ TEST_F(Display, ToneMapsAreTheirTwins) {
         glClearDepthf(0);
       });
       screen.bind();
-      one.show(width, height, {.tone_map = op}, 0);
+      one.show(width, height, {.tone_map = op}, std::log2(white_luminance));
       const std::vector<float> shown = screen.read();
       const Vec3 expected = tone_mapped(color, op);
       for (int c = 0; c < 3; ++c)
