@@ -33,6 +33,7 @@ struct ViewOptions {
   std::string screenshot;
   std::string size;
   std::string camera;
+  std::string quality = "high";
   int samples = 32;
   int frames = 0;
 };
@@ -61,8 +62,9 @@ class OffscreenRun {
     const IVec2 size = scene.render.size;
     PlantedWorld world(std::move(scene), progress);
     const Camera camera = world.camera(settings, progress);
-    SceneDrawing drawing(world, suitable_detail(info.software), progress);
+    SceneDrawing drawing(world, scene_detail(quality()), progress);
     drawing.resize(size.x, size.y);
+    drawing.settle(camera);
     const int frames = options_.frames > 0 ? options_.frames : options_.samples;
     const auto start = Clock::now();
     {
@@ -91,6 +93,11 @@ class OffscreenRun {
       write_exr(path, image);
   }
 
+  DrawingQuality quality() const {
+    if (options_.quality == "low") return DrawingQuality::low;
+    return options_.quality == "medium" ? DrawingQuality::medium : DrawingQuality::high;
+  }
+
   inline static const std::vector<std::string> known_{".exr", ".png"};
 
   const Session& session_;
@@ -117,6 +124,8 @@ void add_view(CLI::App& app, Session& session) {
       ->check(CLI::Range(1, 65536));
   command->add_option("--frames", options->frames, "Draw so many frames without a window")
       ->check(CLI::Range(1, 1000000));
+  command->add_option("--quality", options->quality, "How fine: low, medium or high")
+      ->check(CLI::IsMember({"low", "medium", "high"}));
   session.add_scene_options(*command);
   session.add_output_options(*command);
   command->callback([&session, options] {

@@ -4,27 +4,85 @@
 
 namespace wold {
 
-SceneDetail suitable_detail(bool software) {
+namespace {
+
+constexpr double near_step = 5;  // m that the eye moves before the plants about it are found anew
+// As the path tracer dices the ground under them.
+constexpr float near_spacing_pixels = 2;
+constexpr float default_pixel_angle = 1e-3F;
+
+}  // namespace
+
+SceneDetail scene_detail(DrawingQuality quality) {
   SceneDetail detail;
-  if (!software) return detail;
-  detail.shadows.size = 1024;
-  detail.picture.cloud_steps = 48;
+  switch (quality) {
+    case DrawingQuality::low:
+      detail.shadows.size = 1024;
+      detail.plants.triangle_budget = 700'000;
+      detail.picture.cloud_steps = 32;
+      detail.picture.cloud_light_steps = 4;
+      break;
+    case DrawingQuality::medium: detail.plants.triangle_budget = 4'000'000; break;
+    case DrawingQuality::high:
+      detail.plants.triangle_budget = 12'000'000;
+      detail.plants.leaves_per_pixel = 2;
+      detail.plants.card_height = 60;
+      detail.terrain.pixels_per_vertex = 3;
+      detail.picture.cloud_light_steps = 12;
+      detail.picture.cloud_scale = 1;
+      break;
+  }
   return detail;
 }
 
-SceneDrawing::SceneDrawing(const PlantedWorld& world, const SceneDetail& detail, Progress&)
+SceneDrawing::SceneDrawing(const PlantedWorld& world, const SceneDetail& detail, Progress& progress)
     : world_(world),
       light_(world.world().sky, detail.shadows),
       sun_shadows_(world.world().ground),
       terrain_(world.world().ground, detail.terrain),
+      plants_(world.world(), progress, detail.plants),
       picture_(light_, detail.picture) {
   light_.set_canopy(canopy_shade(world.world()));
   shade_land(world.world().ground);
 }
 
+void SceneDrawing::find_near_plants(const Camera& camera) {
+  const DVec2 eye(camera.position.x, camera.position.y);
+  near_eye_ = eye;
+  const float spacing_angle = near_spacing_pixels * default_pixel_angle;
+  finding_near_.begin([this, eye, place = camera.position, spacing_angle](Progress& progress) {
+    std::vector<ModelInstance> plants = world_.plants_near(eye, progress);
+    world_.set_on_drawn_ground(plants, place, spacing_angle);
+    return plants;
+  });
+}
+
+bool SceneDrawing::take_near_plants() {
+  std::optional<BackgroundJob<std::vector<ModelInstance>>::Outcome> outcome = finding_near_.take();
+  const auto* plants = outcome ? std::get_if<std::vector<ModelInstance>>(&*outcome) : nullptr;
+  if (plants == nullptr) return false;
+  plants_.set_near_plants(*plants);
+  light_.shadows().forget();
+  return true;
+}
+
+void SceneDrawing::settle(const Camera& camera) {
+  const DVec2 eye(camera.position.x, camera.position.y);
+  if (near_eye_ != eye) find_near_plants(camera);
+  if (!finding_near_.busy()) return;
+  plants_.set_near_plants(finding_near_.wait());
+  light_.shadows().forget();
+  picture_.restart();
+}
+
 void SceneDrawing::draw(const Camera& camera, const std::function<void(const DrawView&)>& extra) {
+  if (take_near_plants()) picture_.restart();
+  const DVec2 eye(camera.position.x, camera.position.y);
+  if (!finding_near_.busy() && (!near_eye_ || glm::distance(eye, *near_eye_) > near_step))
+    find_near_plants(camera);
   picture_.draw(camera, [&](const DrawView& view, const SceneLight* light) {
     terrain_.draw(view, light);
+    plants_.draw(view, light);
     if (extra && light != nullptr) extra(view);
   });
 }
@@ -54,7 +112,7 @@ void SceneDrawing::set_sun() {
 }
 
 std::size_t SceneDrawing::drawn_triangles() const {
-  return terrain_.drawn_triangles();
+  return terrain_.drawn_triangles() + plants_.choice().triangles;
 }
 
 }  // namespace wold

@@ -2,10 +2,12 @@
 // A scene drawn in real time: its land, its plants, its light.
 
 #include <functional>
-#include <memory>
+#include <optional>
 #include <vector>
 
+#include "base/background_job.hpp"
 #include "raster/picture_drawing.hpp"
+#include "raster/plant_drawing.hpp"
 #include "raster/terrain_drawing.hpp"
 #include "scene/planted_world.hpp"
 
@@ -13,12 +15,16 @@ namespace wold {
 
 struct SceneDetail {
   TerrainDetail terrain;
+  PlantDetail plants;
   PictureQuality picture;
   ShadowSettings shadows;
 };
 
-/// What suits the driver: a processor draws less.
-SceneDetail suitable_detail(bool software);
+/// How fine a scene is drawn: `low` for a processor that draws itself, `medium` for a graphics
+/// card, `high` for stills and films.
+enum class DrawingQuality { low, medium, high };
+
+SceneDetail scene_detail(DrawingQuality quality);
 
 class SceneDrawing {
  public:
@@ -28,9 +34,12 @@ class SceneDrawing {
 
   void resize(int width, int height) { picture_.resize(width, height); }
   /// Draws one frame more (PictureDrawing::draw). Plants that stand around the eye only are found
-  /// anew once it has moved on.
+  /// anew, in the background, once it has moved on.
   /// `extra`, if given, draws more surfaces, seen but without shadows.
   void draw(const Camera& camera, const std::function<void(const DrawView&)>& extra = {});
+
+  /// Waits until everything that a camera sees is there: for stills and films.
+  void settle(const Camera& camera);
 
   /// Another moment over the same land.
   void set_sky(const SkySettings& sky);
@@ -45,12 +54,17 @@ class SceneDrawing {
  private:
   void shade_land(const Ground& ground);
   void set_sun();
+  void find_near_plants(const Camera& camera);
+  bool take_near_plants();
 
   const PlantedWorld& world_;
   SceneLight light_;
   SunShadowMap sun_shadows_;
   TerrainDrawing terrain_;
+  PlantDrawing plants_;
   PictureDrawing picture_;
+  std::optional<DVec2> near_eye_;  // the eye that the plants around it were last asked for
+  BackgroundJob<std::vector<ModelInstance>> finding_near_;
 };
 
 }  // namespace wold

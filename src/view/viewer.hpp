@@ -1,0 +1,128 @@
+#pragma once
+// The heart of `wold view`, without its window: a scene that is flown through, loaded anew when its
+// file changes, edited, traced beside; drawn into a picture of its own.
+//
+// Everything slow happens in the background; each frame takes what is ready. A scene that has
+// become invalid leaves the old one where it is, and an error to show.
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/background_job.hpp"
+#include "raster/scene_drawing.hpp"
+#include "scene/planted_world.hpp"
+#include "view/controls.hpp"
+#include "view/line_drawing.hpp"
+#include "view/pilot.hpp"
+#include "view/traced_view.hpp"
+
+namespace wold {
+
+struct ViewerSettings {
+  std::filesystem::path scene;
+  std::vector<std::string> overrides;  ///< "path=value"
+  std::string camera;                  ///< where to begin; empty: the first
+  SceneDetail detail;
+  bool watch = true;        ///< loads the scene anew when its file changes
+  int traced_samples = 64;  ///< of P
+  int traced_size = 640;    ///< pixels on the longer side
+};
+
+/// What a user should be told.
+struct ViewerNotice {
+  std::string text;
+  bool error = false;
+};
+
+class Viewer {
+ public:
+  /// Loads the scene and makes what draws it. Needs a current context. Throws as read_scene and
+  /// PlantedWorld.
+  Viewer(ViewerSettings settings, Progress& progress);
+
+  /// Does what the controls ask for, takes what is ready, draws one frame.
+  void frame(const Controls& controls);
+  /// A window's size in pixels; 0 when it is hidden: then frames draw nothing.
+  void resize(int width, int height);
+  /// Brings the picture into the bound framebuffer of that size.
+  void show(int width, int height) const;
+
+  const Scene& scene() const { return world_->scene(); }
+  /// The scene as edited; `edited` must be called after each change.
+  Scene& edit() { return edited_; }
+  /// What has been changed in `edit()`.
+  enum class Change { picture, light, everything };
+  void edited(Change change);
+
+  const PictureDrawing& picture() const { return drawing_->picture(); }
+  const SceneDrawing& drawing() const { return *drawing_; }
+  const Pilot& pilot() const { return pilot_; }
+  void place(const Camera& camera);
+  Camera camera() const { return camera_of(pilot_); }
+  /// Stops of the picture as shown.
+  float exposure() const { return exposure_; }
+  const ToneMapping& tone() const { return edited_.picture; }
+
+  TracedView& traced() { return traced_; }
+  const TestRays& rays() const { return rays_; }
+
+  /// Whether a scene is being loaded, and how far it is.
+  bool loading() const { return loading_.busy(); }
+  ProgressReport loading_report() const { return loading_.report(); }
+  void cancel_loading() { loading_.cancel(); }
+  /// The error of the last reload; empty when it was well.
+  const std::string& error() const { return error_; }
+  /// What to tell the user, once each.
+  std::vector<ViewerNotice> take_notices();
+  /// Text that the user wants in the clipboard, once.
+  std::optional<std::string> take_clipboard();
+
+  /// Scenes loaded so far.
+  int generation() const { return generation_; }
+
+ private:
+  struct Loaded {
+    std::shared_ptr<PlantedWorld> world;
+  };
+
+  void obey(const Controls& controls);
+  void take_loaded();
+  void take_rays();
+  void watch_files();
+  void reload();
+  void load(Scene scene);
+  void use(std::shared_ptr<PlantedWorld> world, Progress& progress);
+  void note_file_times();
+  void set_hour(double hours);
+  void adapt_exposure(double seconds);
+
+  ViewerSettings settings_;
+  std::shared_ptr<PlantedWorld> world_;
+  std::unique_ptr<SceneDrawing> drawing_;
+  Scene edited_;
+  Pilot pilot_;
+  std::vector<Camera> cameras_;
+  BackgroundJob<Loaded> loading_;
+  TracedView traced_;
+  BackgroundJob<TestRays> tracing_rays_;
+  TestRays rays_;
+  LineDrawing lines_;
+  int width_ = 0;
+  int height_ = 0;
+  float exposure_ = 0;
+  float metered_ = 0;
+  int frames_to_metering_ = 0;
+  bool animate_sun_ = false;
+  double seconds_to_watch_ = 0;
+  std::vector<std::pair<std::filesystem::path, std::filesystem::file_time_type>> file_times_;
+  std::string error_;
+  std::vector<ViewerNotice> notices_;
+  std::optional<std::string> clipboard_;
+  int generation_ = 0;
+};
+
+}  // namespace wold
