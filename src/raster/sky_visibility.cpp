@@ -95,7 +95,7 @@ float visibility(const Land& land, DVec2 place, double cell) {
     const float own = std::max(0.0F, glm::dot(gradient, Vec2(d)));
     float rise = own;
     float h = 0;
-    for (double x = cell; land.height(place + x * d, 0.25 * x, h); x *= 1.4)
+    for (double x = cell; land.height(place + x * d, 0.06 * x, h); x *= 1.25)
       rise = std::max(rise, (h - here) / static_cast<float>(x));
     const float across = glm::dot(Vec2(normal), Vec2(d));
     seen += light_above(rise, across, normal.z);

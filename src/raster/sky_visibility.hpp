@@ -9,7 +9,7 @@
 //
 // over 16 directions, where b_0 is the slope's own horizon (N. Max, "Horizon mapping: shadows for
 // bump-mapped surfaces", The Visual Computer 4, 1988, has horizons by direction). They are looked
-// for at distances that grow by two fifths, in ever coarser heights.
+// for at distances that grow by a quarter, in ever coarser heights.
 
 #include "raster/sun_shadow_map.hpp"
 
@@ -17,7 +17,7 @@ namespace wold {
 
 class SkyVisibility {
  public:
-  explicit SkyVisibility(const Ground& ground, int most_samples = 257);
+  explicit SkyVisibility(const Ground& ground, int most_samples = 193);
 
   float share(DVec2 place) const;
   /// Shares as heightfields of V.

@@ -13,8 +13,6 @@ namespace wold {
 
 namespace {
 
-constexpr float shadow_coarseness = 2;
-
 GpuProgram terrain_program(const char* fragment) {
   const ShaderDialect dialect = gpu_info().dialect;
   return {assemble_shader("raster/terrain.vert.glsl", dialect), assemble_shader(fragment, dialect)};
@@ -69,10 +67,8 @@ const TerrainDrawing::TileMesh& TerrainDrawing::mesh(int cells) {
 }
 
 void TerrainDrawing::draw(const DrawView& view, const SceneLight* light) {
-  // Shadow maps look all around the eye: coarser vertices, which the maps' bias covers.
-  TerrainDetail detail = detail_;
-  if (view.depth_only) detail.pixels_per_vertex *= shadow_coarseness;
-  const TerrainChoice choice = levels_.choose(view, detail);
+  // Shadow maps too have the camera's vertices: coarser ones throw shadows on these.
+  const TerrainChoice choice = levels_.choose(view, detail_);
   const TileMesh& grid = mesh(choice.cells);
   drawn_triangles_ = choice.tiles.size() * static_cast<std::size_t>(grid.index_count) / 3;
   if (choice.tiles.empty()) return;

@@ -102,7 +102,8 @@ TerrainLevels::TerrainLevels(const Ground& ground)
           const Bounds& child = bounds(depth + 1, 2 * x + c.x, 2 * y + c.y);
           b = {std::min(b.low, child.low), std::max(b.high, child.high)};
         }
-        level[static_cast<std::size_t>(y * n + x)] = b;
+        level[static_cast<std::size_t>(y) * static_cast<std::size_t>(n) +
+              static_cast<std::size_t>(x)] = b;
       }
   }
 }

@@ -129,6 +129,13 @@ TEST(SkyVisibility, BottomOfAValley) {
   }
 }
 
+// At the distance x from an endless wall of height h, half of the directions have a horizon of
+// tan b = h |cos φ| / x: V = (1 + 1 / √(1 + (h / x)²)) / 2.
+TEST(SkyVisibility, FarWall) {
+  const Ground ground = land([](DVec2 p) { return p.x > 0 ? 200.0 : 0.0; });
+  EXPECT_NEAR(SkyVisibility(ground, 129).share({-400, 0}), 0.5 * (1 + 1 / std::sqrt(1.25)), 0.02);
+}
+
 TEST(SkyVisibility, SlopesCrestsAndPlainsSeeAllTheirSky) {
   const Ground slope = land([](DVec2 p) { return 0.7 * p.x + 0.2 * p.y; });
   EXPECT_NEAR(SkyVisibility(slope, 65).share({100, 50}), 1, 0.01);
