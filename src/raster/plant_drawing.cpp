@@ -148,8 +148,10 @@ void PlantDrawing::draw_batch(const GpuProgram& program, const PlantBatch& batch
   plant_attributes(model.vertices, drawn_, batch.first);
   model.vertices.bind();
   const std::size_t offset = level.first_index * sizeof(std::uint32_t);
-  glDrawElementsInstanced(GL_TRIANGLES, static_cast<int>(level.index_count), GL_UNSIGNED_INT,
-                          reinterpret_cast<const void*>(offset), static_cast<int>(batch.count));
+  glDrawElementsInstanced(
+      GL_TRIANGLES, static_cast<int>(level.index_count), GL_UNSIGNED_INT,
+      reinterpret_cast<const void*>(offset),  // NOLINT(performance-no-int-to-ptr)
+      static_cast<int>(batch.count));
 }
 
 void PlantDrawing::draw(const DrawView& view, const SceneLight* light) {
