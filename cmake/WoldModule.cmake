@@ -46,3 +46,11 @@ function(wold_shaders name folder)
     COMMENT "Building the shaders in")
   target_sources(wold_${name} PRIVATE ${output})
 endfunction()
+
+# wold_page(NAME FILE): builds the text of a web page into the library wold_NAME.
+function(wold_page name file)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${file})
+  file(READ ${CMAKE_SOURCE_DIR}/${file} WOLD_PAGE)
+  configure_file(${CMAKE_SOURCE_DIR}/cmake/page.cpp.in ${CMAKE_BINARY_DIR}/generated/page.cpp @ONLY)
+  target_sources(wold_${name} PRIVATE ${CMAKE_BINARY_DIR}/generated/page.cpp)
+endfunction()

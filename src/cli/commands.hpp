@@ -15,6 +15,7 @@ void add_view(CLI::App& app, Session& session);
 void add_terrain(CLI::App& app, Session& session);
 void add_erode(CLI::App& app, Session& session);
 void add_analyze(CLI::App& app, Session& session);
+void add_shader(CLI::App& app, Session& session);
 void add_check(CLI::App& app, Session& session);
 void add_new(CLI::App& app, Session& session);
 void add_help(CLI::App& app, Session& session);

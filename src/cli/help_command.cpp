@@ -13,6 +13,7 @@
 #include "cli/session.hpp"
 #include "erosion/operators.hpp"
 #include "image/atomic_file.hpp"
+#include "realtime/landscape_settings.hpp"
 #include "scene/scene.hpp"
 
 namespace wold {
@@ -100,7 +101,8 @@ void write_reference(const std::string& folder) {
   sections += "\n#" + reference_markdown(describe(common), &common);
   std::string index =
       "# Reference\n\nWritten by `wold help --write-reference`.\n\n- [Sections of a scene "
-      "file](scene.md)\n- [JSON Schema](scene.schema.json)\n\nOperators of `[[terrain.step]]`:\n\n";
+      "file](scene.md)\n- [JSON Schema](scene.schema.json)\n- [Knobs of `wold "
+      "shader`](shader.md)\n\nOperators of `[[terrain.step]]`:\n\n";
   std::set<std::string> eroding;
   for (const TerrainOperator& op : erosion_operators()) eroding.insert(op.name());
   for (const TerrainOperator& op : scene_operators()) {
@@ -109,6 +111,8 @@ void write_reference(const std::string& folder) {
                operator_page(op, eroding.contains(op.name())));
   }
   write_file(folder + "/scene.md", sections);
+  const LandscapeSettings knobs;
+  write_file(folder + "/shader.md", reference_markdown(describe(knobs), &knobs));
   write_file(folder + "/README.md", index);
   write_file(folder + "/scene.schema.json", scene_schema());
 }

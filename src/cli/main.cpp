@@ -79,6 +79,7 @@ int run(int argc, char** argv) {
   wold::add_terrain(app, session);
   wold::add_erode(app, session);
   wold::add_analyze(app, session);
+  wold::add_shader(app, session);
   wold::add_check(app, session);
   wold::add_new(app, session);
   wold::add_help(app, session);

@@ -1,7 +1,6 @@
 #include "realtime/land_fractal.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 #include <vector>
@@ -24,7 +23,7 @@ std::string term(const Fractal& f) {
                          glsl_number(f.offset));
     case FractalKind::ridged:
       return fmt::format(
-          "total += o.amplitude * share * ridge(n, w, {}, {}, SMOOTH_RIDGES * {});\n",
+          "total += o.amplitude * share * ridge(n, w, {}, {}, float(SMOOTH_RIDGES) * {});\n",
           glsl_number(f.offset), glsl_number(f.gain), glsl_number(f.smooth_ridges));
     case FractalKind::eroded: break;
   }
@@ -61,7 +60,14 @@ std::string fractal_function(const std::string& name, const Fractal& f, float fe
                                   glsl_number(rest)));
     rest -= mean;
   }
-  const std::string lines = ",\n    ";
+  const auto in_lines = [](const std::vector<std::string>& items, std::size_t per_line) {
+    std::string text;
+    for (std::size_t k = 0; k < items.size(); ++k) {
+      if (k > 0) text += k % per_line == 0 ? ",\n    " : ", ";
+      text += items[k];
+    }
+    return text;
+  };
   return fmt::format(
       "\nconst ivec2 {0}_cells[{1}] = ivec2[{1}](\n    {2});\n"
       "// where the octave lies, its mean, and that of all from it on\n"
@@ -84,7 +90,7 @@ std::string fractal_function(const std::string& name, const Fractal& f, float fe
       "  }}\n"
       "  return vec3(total.x, total.yz * {4});\n"
       "}}\n",
-      name, f.octaves, fmt::join(cells, lines), fmt::join(octaves, lines), glsl_number(1 / size),
+      name, f.octaves, in_lines(cells, 3), in_lines(octaves, 2), glsl_number(1 / size),
       fractal_seed(seed), term(f), glsl_number(f.lacunarity),
       glsl_number(std::pow(double{f.lacunarity}, -double{f.hurst})), "",
       f.kind == FractalKind::eroded ? "0.0" : "1.0");

@@ -96,7 +96,11 @@ bool plants_trees(const Scene& scene) {
          !scene.scatter.empty();
 }
 
-/// Steps "left out" that make no ground are no loss: snow and covers by maps remain colours.
+/// Nobody wants to read 135.03426.
+float rounded(float value, float step) {
+  return step * std::round(value / step);
+}
+
 void set_camera(const Scene& scene, const std::string& name, const Relief& relief, Landscape& out) {
   const CameraSettings& camera = scene.camera(name);
   LandscapeSettings& s = out.settings;
@@ -107,13 +111,16 @@ void set_camera(const Scene& scene, const std::string& name, const Relief& relie
   }
   const float height = relief.most.high - relief.most.low;
   s.cam_height = std::clamp(std::max(camera.look_height, 0.14F * height), 40.0F, 2000.0F);
+  s.cam_height = rounded(s.cam_height, 5);
   s.cam_speed = std::clamp(0.35F * s.cam_height, 15.0F, 250.0F);
+  s.cam_speed = rounded(s.cam_speed, 5);
   // Without a direction: with the sun at the side, where shapes show best.
   s.cam_direction = std::remainder(s.sun_azimuth + 115.0F, 360.0F);
   if (camera.look_direction.size() == 3) {
     const double azimuth = std::atan2(camera.look_direction[0], camera.look_direction[1]);
     s.cam_direction = static_cast<float>(degrees(azimuth));
   }
+  s.cam_direction = rounded(s.cam_direction, 0.1F);
   s.field_of_view = camera.field_of_view;
 }
 
@@ -125,10 +132,12 @@ void set_sky(const Scene& scene, const Relief& relief, Landscape& out) {
   s.sun_elevation = degrees(std::asin(std::clamp(sun.z, -1.0F, 1.0F)));
   s.sun_azimuth = degrees(std::atan2(sun.x, sun.y));
   if (s.sun_azimuth < 0) s.sun_azimuth += 360;
+  s.sun_elevation = rounded(s.sun_elevation, 0.1F);
+  s.sun_azimuth = rounded(s.sun_azimuth, 0.1F);
   const Clouds& c = scene.sky.clouds;
   const bool has_clouds = c.coverage > 0;
   s.cloud_coverage = has_clouds ? c.coverage : fair_coverage;
-  s.clouds_height = has_clouds ? c.height : std::max(1500.0F, relief.all.high + 900);
+  s.clouds_height = has_clouds ? c.height : rounded(std::max(1500.0F, relief.all.high + 900), 50);
   s.clouds_thickness = c.thickness;
   s.cloud_size = c.feature_size;
   s.cloud_scattering = c.scattering;
@@ -242,9 +251,11 @@ std::string landscape_body(const Landscape& landscape, const std::vector<std::st
                 ? fmt::format("#define {} {}\n", v.name, v.value)
                 : fmt::format("{:<44} // {}\n", fmt::format("#define {} {}", v.name, v.value),
                               v.comment);
-  text += "\n#include \"sky/atmosphere.glsl\"\n\n// The air and its light\n\n" + landscape.tables;
+  text += "\n// Noise\n\n#include \"landscape/patches.glsl\"\n#include \"noise/fractal3.glsl\"\n";
+  text += "\n// The air and its light\n\n#include \"sky/air_march.glsl\"\n\n" + landscape.tables;
+  text += "\n// Clouds\n\n#include \"sky/clouds.glsl\"\n";
   text += "\n// The land\n\n" + landscape.land;
-  text += "\n#include \"landscape/landscape.glsl\"\n";
+  text += "\n// The picture\n\n#include \"landscape/landscape.glsl\"\n";
   return text;
 }
 

@@ -101,7 +101,8 @@ void LandscapeDrawing::draw(int width, int height, float time, const Camera& cam
 
 Image landscape_picture(const LandscapeDrawing& drawing, int width, int height, float time,
                         const Camera* camera) {
-  const GpuTarget target(width, height, std::array{PixelFormat::rgba8}, false);
+  const GpuTarget target(width, height, std::array{PixelFormat::rgba32f},
+                         false);  // which ES can read, too
   target.bind();
   if (camera != nullptr)
     drawing.draw(width, height, time, *camera);
@@ -114,7 +115,8 @@ Image landscape_picture(const LandscapeDrawing& drawing, int width, int height, 
       const std::size_t k =
           4 * (static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) +
                static_cast<std::size_t>(x));
-      for (int c = 0; c < 3; ++c) image.at(x, y, c) = values[k + static_cast<std::size_t>(c)];
+      for (int c = 0; c < 3; ++c)
+        image.at(x, y, c) = std::clamp(values[k + static_cast<std::size_t>(c)], 0.0F, 1.0F);
     }
   return image;
 }

@@ -23,7 +23,10 @@ std::string value_text(const Parameter& p, const LandscapeSettings& settings) {
 std::string range_text(const Parameter& p) {
   if (p.kind == ParameterKind::boolean) return "0 or 1";
   const std::string unit = p.limits.unit.empty() ? "" : p.limits.unit + ", ";
-  return fmt::format("{}{:g} to {:g}", unit, p.limits.min, p.limits.max);
+  const auto text = [](double x) {
+    return std::abs(x) >= 1e5 ? fmt::format("{:.0f}", x) : fmt::format("{:g}", x);
+  };
+  return fmt::format("{}{} to {}", unit, text(p.limits.min), text(p.limits.max));
 }
 
 Value value_of(const Parameter& p, std::string_view name, std::string_view text) {

@@ -1,5 +1,6 @@
 // Where the eye is: on a straight flight over the land that follows its height, or wherever the
 // program that shows the picture says (LANDSCAPE_CAMERA).
+#include "terrain/steps.glsl"
 
 struct View {
   vec2 place;

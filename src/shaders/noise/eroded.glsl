@@ -9,7 +9,7 @@ vec3 eroded(LatticePlace2 p, Fractal f, uint seed, int octaves, float spacing) {
   vec2 d = vec2(0.0);
   mat2 second = mat2(0.0);
   vec3 total = vec3(0.0);
-  for (int i = 0; i < octaves; ++i, to_next(o)) {
+  for (int i = 0; i < octaves; ++i) {
     float weight = octave_weight(spacing * o.frequency);
     if (weight <= 0.0) break;
     uvec2 cell = lattice_cell(o.place);
@@ -26,6 +26,7 @@ vec3 eroded(LatticePlace2 p, Fractal f, uint seed, int octaves, float spacing) {
     float damped = 1.0 / (1.0 + f.damping * dot(d, d));
     float term = a * n.value * damped;
     total += vec3(term, (slope - 2.0 * f.damping * term * (second * d)) * damped);
+    to_next(o);
   }
   return total;
 }
@@ -35,7 +36,7 @@ vec4 eroded(LatticePlace3 p, Fractal f, uint seed, int octaves, float spacing) {
   vec3 d = vec3(0.0);
   mat3 second = mat3(0.0);
   vec4 total = vec4(0.0);
-  for (int i = 0; i < octaves; ++i, to_next(o)) {
+  for (int i = 0; i < octaves; ++i) {
     float weight = octave_weight(spacing * o.frequency);
     if (weight <= 0.0) break;
     uvec3 cell = lattice_cell(o.place);
@@ -52,6 +53,7 @@ vec4 eroded(LatticePlace3 p, Fractal f, uint seed, int octaves, float spacing) {
     float damped = 1.0 / (1.0 + f.damping * dot(d, d));
     float term = a * n.value * damped;
     total += vec4(term, (slope - 2.0 * f.damping * term * (second * d)) * damped);
+    to_next(o);
   }
   return total;
 }

@@ -20,10 +20,11 @@ vec4 sample_absolute(vec4 a, float k) {
 float fbm_value(LatticePlace3 p, Fractal f, uint seed, int octaves, float spacing) {
   ValueOctaves3 o = first_value_octave(p, f, seed);
   float total = 0.0;
-  for (int i = 0; i < octaves; ++i, to_next(o)) {
+  for (int i = 0; i < octaves; ++i) {
     float weight = octave_weight(spacing * o.frequency);
     if (weight <= 0.0) break;
     total += o.amplitude * weight * octave_value(o, f.basis);
+    to_next(o);
   }
   return total;
 }
@@ -31,10 +32,11 @@ float fbm_value(LatticePlace3 p, Fractal f, uint seed, int octaves, float spacin
 float turbulence_value(LatticePlace3 p, Fractal f, uint seed, int octaves, float spacing) {
   ValueOctaves3 o = first_value_octave(p, f, seed);
   float total = 0.0;
-  for (int i = 0; i < octaves; ++i, to_next(o)) {
+  for (int i = 0; i < octaves; ++i) {
     float weight = octave_weight(spacing * o.frequency);
     if (weight <= 0.0) break;
     total += o.amplitude * weight * abs(octave_value(o, f.basis));
+    to_next(o);
   }
   return total;
 }
@@ -43,12 +45,13 @@ float hybrid_value(LatticePlace3 p, Fractal f, uint seed, int octaves, float spa
   ValueOctaves3 o = first_value_octave(p, f, seed);
   float total = 0.0;
   float w = 1.0;
-  for (int i = 0; i < octaves; ++i, to_next(o)) {
+  for (int i = 0; i < octaves; ++i) {
     float weight = octave_weight(spacing * o.frequency);
     if (weight <= 0.0) break;
     w *= o.amplitude * (octave_value(o, f.basis) + f.offset);
     total += w * weight;
     w = min(w, 1.0);
+    to_next(o);
   }
   return total;
 }
@@ -57,7 +60,7 @@ float ridged_value(LatticePlace3 p, Fractal f, uint seed, int octaves, float spa
   ValueOctaves3 o = first_value_octave(p, f, seed);
   float total = 0.0;
   float w = 1.0;
-  for (int i = 0; i < octaves; ++i, to_next(o)) {
+  for (int i = 0; i < octaves; ++i) {
     float weight = octave_weight(spacing * o.frequency);
     if (weight <= 0.0) break;
     float n = octave_value(o, f.basis);
@@ -65,6 +68,7 @@ float ridged_value(LatticePlace3 p, Fractal f, uint seed, int octaves, float spa
     float s = crest * crest * w;
     total += s * o.amplitude * weight;
     w = clamp(f.gain * s, 0.0, 1.0);
+    to_next(o);
   }
   return total;
 }
@@ -73,12 +77,13 @@ float eroded_value(LatticePlace3 p, Fractal f, uint seed, int octaves, float spa
   Octaves3 o = first_octave(p, f, seed);
   float total = 0.0;
   vec3 slope = vec3(0.0);
-  for (int i = 0; i < octaves; ++i, to_next(o)) {
+  for (int i = 0; i < octaves; ++i) {
     float weight = octave_weight(spacing * o.frequency);
     if (weight <= 0.0) break;
     vec4 n = octave_noise(o, f.basis) * (o.amplitude * weight);
     slope += n.yzw;
     total += n.x / (1.0 + f.damping * dot(slope, slope));
+    to_next(o);
   }
   return total;
 }
@@ -86,10 +91,11 @@ float eroded_value(LatticePlace3 p, Fractal f, uint seed, int octaves, float spa
 vec4 fbm(LatticePlace3 p, Fractal f, uint seed, int octaves, float spacing) {
   Octaves3 o = first_octave(p, f, seed);
   vec4 total = vec4(0.0);
-  for (int i = 0; i < octaves; ++i, to_next(o)) {
+  for (int i = 0; i < octaves; ++i) {
     float weight = octave_weight(spacing * o.frequency);
     if (weight <= 0.0) break;
     total += o.amplitude * weight * octave_noise(o, f.basis);
+    to_next(o);
   }
   return total;
 }
@@ -97,11 +103,12 @@ vec4 fbm(LatticePlace3 p, Fractal f, uint seed, int octaves, float spacing) {
 vec4 turbulence(LatticePlace3 p, Fractal f, uint seed, int octaves, float spacing) {
   Octaves3 o = first_octave(p, f, seed);
   vec4 total = vec4(0.0);
-  for (int i = 0; i < octaves; ++i, to_next(o)) {
+  for (int i = 0; i < octaves; ++i) {
     float weight = octave_weight(spacing * o.frequency);
     if (weight <= 0.0) break;
     vec4 n = octave_noise(o, f.basis) * (o.amplitude * weight);
     total += n.x < 0.0 ? -n : n;
+    to_next(o);
   }
   return total;
 }
@@ -110,13 +117,14 @@ vec4 hybrid(LatticePlace3 p, Fractal f, uint seed, int octaves, float spacing) {
   Octaves3 o = first_octave(p, f, seed);
   vec4 total = vec4(0.0);
   vec4 w = constant_sample3(1.0);
-  for (int i = 0; i < octaves; ++i, to_next(o)) {
+  for (int i = 0; i < octaves; ++i) {
     float weight = octave_weight(spacing * o.frequency);
     if (weight <= 0.0) break;
     vec4 n = octave_noise(o, f.basis) + constant_sample3(f.offset);
     w = sample_product(w, o.amplitude * n);
     total += w * weight;
     if (w.x > 1.0) w = constant_sample3(1.0);
+    to_next(o);
   }
   return total;
 }
@@ -125,7 +133,7 @@ vec4 ridged(LatticePlace3 p, Fractal f, uint seed, int octaves, float spacing) {
   Octaves3 o = first_octave(p, f, seed);
   vec4 total = vec4(0.0);
   vec4 w = constant_sample3(1.0);
-  for (int i = 0; i < octaves; ++i, to_next(o)) {
+  for (int i = 0; i < octaves; ++i) {
     float weight = octave_weight(spacing * o.frequency);
     if (weight <= 0.0) break;
     vec4 n = octave_noise(o, f.basis);
@@ -134,6 +142,7 @@ vec4 ridged(LatticePlace3 p, Fractal f, uint seed, int octaves, float spacing) {
     total += s * (o.amplitude * weight);
     w = s * f.gain;
     if (w.x < 0.0 || w.x > 1.0) w = constant_sample3(clamp(w.x, 0.0, 1.0));
+    to_next(o);
   }
   return total;
 }
