@@ -17,8 +17,6 @@
 #include "base/error.hpp"
 #include "image/atomic_file.hpp"
 
-extern char** environ;  // as POSIX has it
-
 namespace wold {
 
 namespace {
@@ -27,6 +25,10 @@ namespace fs = std::filesystem;
 
 constexpr int most_digits = 12;
 constexpr int most_frames = 10'000'000;
+
+// yuv420p halves both sizes: odd ones lose a row or column. Colours as BT.709.
+constexpr std::string_view even_size_and_colors =
+    "crop=trunc(iw/2)*2:trunc(ih/2)*2,scale=out_color_matrix=bt709,format=yuv420p";
 
 [[noreturn]] void bad_pattern(std::string_view pattern, std::string_view why) {
   throw Error(ErrorKind::usage,
@@ -197,7 +199,7 @@ void write_video(const std::string& file, const FramePattern& pattern, const Fra
                 fmt::format("the frame '{}' is missing; --resume makes it", pattern.name(frame)));
   const std::string program = ffmpeg();
   // A relative name gets "./": nothing that a user calls a file is taken for an option or a
-  // protocol. Odd sizes lose a row or column: yuv420p halves both. Colours as BT.709.
+  // protocol.
   const auto plain = [](const std::string& name) {
     return name.starts_with('/') ? name : "./" + name;
   };
@@ -215,8 +217,7 @@ void write_video(const std::string& file, const FramePattern& pattern, const Fra
                           "-frames:v",
                           std::to_string(range.count()),
                           "-vf",
-                          "crop=trunc(iw/2)*2:trunc(ih/2)*2,scale=out_color_matrix=bt709,"
-                          "format=yuv420p",
+                          std::string(even_size_and_colors),
                           "-c:v",
                           "libx264",
                           "-crf",

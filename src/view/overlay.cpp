@@ -265,7 +265,12 @@ void draw_status(const StatusLine& status) {
     item("sun", fmt::format("{:.1f}° up, {:.0f}°{}{}", status.sun_elevation, status.sun_azimuth,
                             status.time.empty() ? "" : ", ", status.time));
     item("exposure", fmt::format("{:+.2f}", status.exposure));
-    const std::string hint = "H  help     Tab  panel";
+    const auto key = [](Action action) {
+      const std::string_view keys = control_of(action).keys;
+      return keys.substr(0, keys.find(' '));
+    };
+    const std::string hint =
+        fmt::format("{}  help     {}  panel", key(Action::help), key(Action::panel));
     const float width = ImGui::CalcTextSize(hint.c_str()).x;
     const float at = screen().x - width - 0.8F * em();
     if (at > ImGui::GetCursorPosX()) {

@@ -257,8 +257,13 @@ Edited edit_parameter(const Parameter& p, const Value& value, const Value& usual
 }
 
 std::string title_of(std::string_view name) {
-  std::string title(name);
-  std::replace(title.begin(), title.end(), '_', ' ');
+  std::string title;
+  for (const char c : name) {
+    const bool digit = c >= '0' && c <= '9';
+    if (digit && !title.empty() && std::isalpha(static_cast<unsigned char>(title.back())))
+      title += ' ';
+    title += c == '_' ? ' ' : c;
+  }
   if (!title.empty())
     title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
   return title;

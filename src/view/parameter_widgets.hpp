@@ -12,7 +12,7 @@ namespace wold {
 std::optional<Value> edit_parameter(const Parameter& parameter, const Value& value,
                                     const Value& usual);
 
-/// "sun_intensity" as people write it: "Sun intensity".
+/// "soil_color1" as people write it: "Soil color 1".
 std::string title_of(std::string_view name);
 
 /// "a, b, c": a list as it is typed, and back. Throws Error(input) for what is no number.

@@ -57,6 +57,7 @@ TEST(SliderRange, HoldsEveryValueOfEveryParameterOfAScene) {
 
 TEST(ParameterWidgets, TextsOfListsAndHours) {
   EXPECT_EQ(title_of("sun_intensity"), "Sun intensity");
+  EXPECT_EQ(title_of("soil_color1"), "Soil color 1");
   EXPECT_EQ(parse_list(list_text({1, -2.5, 1e-7})), (std::vector<double>{1, -2.5, 1e-7}));
   EXPECT_EQ(parse_list(" [1, 2] "), (std::vector<double>{1, 2}));
   EXPECT_TRUE(parse_list("").empty());
@@ -150,7 +151,8 @@ class PanelOverAPicture : public testing::Test {
       for (int x = 0; x < width; ++x)
         for (int c = 0; c < 3; ++c)
           image.at(x, height - 1 - y, c) =
-              pixels[static_cast<std::size_t>((y * width + x) * 4 + c)];
+              pixels[4 * (static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)) +
+                     static_cast<std::size_t>(c)];
     return image;
   }
 
@@ -203,6 +205,17 @@ TEST_F(PanelOverAPicture, DrawsAllThatThereIs) {
   EXPECT_TRUE(messages.has_errors());
   messages.solved("scene");
   EXPECT_FALSE(messages.has_errors());
+}
+
+TEST_F(PanelOverAPicture, DrawsColoursAndTheParametersOfOperators) {
+  std::vector<PanelSection> some;
+  for (PanelSection& section : sections_) {
+    section.open = true;
+    if (section.name == "ground" || section.name == "terrain.step.0") some.push_back(section);
+  }
+  ASSERT_EQ(some.size(), 2U);
+  for (int k = 0; k < 3; ++k) frame([&] { panel_.draw(some, "hills.toml"); });
+  keep("ground.png");
 }
 
 TEST_F(PanelOverAPicture, DrawsTheHelp) {

@@ -17,8 +17,6 @@
 #include "gpu/objects.hpp"
 #include "view/window_events.hpp"
 
-extern char** environ;
-
 namespace wold {
 namespace {
 
