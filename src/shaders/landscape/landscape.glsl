@@ -12,6 +12,11 @@ float pixel_noise(vec2 pixel) {
   return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
 }
 
+// Without a pattern, for steps so long that one would show.
+float random_of(vec2 pixel) {
+  return float(lattice_hash(uint(pixel.x), lattice_line(uint(pixel.y), 7u)) >> 8u) / 16777216.0;
+}
+
 // Sun, sky from above, and what sunlit land opposite the sun throws back, all Lambert.
 vec3 shaded(vec3 albedo, vec3 normal, float open, float sunlit, Light light) {
   vec3 sun = light.sun * max(dot(normal, light.direction), 0.0) * sunlit;
@@ -69,7 +74,7 @@ vec3 with_clouds(vec3 behind, LandRay ray, AirRay air, float reach, Light light,
   vec3 around = (light.sky + AIR.ground_albedo * on_ground) / 6.2832;
   CloudLight clouds = clouds_seen(
       landscape_clouds(), AIR, wind_place(ray.place, time), air, ray.direction, light.direction,
-      min(reach, span.begin + 20.0 * CLOUDS_THICKNESS), above.sun, around, start, CloudSteps(CLOUD_STEPS,
+      min(reach, span.begin + 12.0 * CLOUDS_THICKNESS), above.sun, around, start, CloudSteps(CLOUD_STEPS,
                                                                          CLOUD_LIGHT_STEPS));
   if (clouds.transmittance > 0.999) return behind;
   AirLight before = air_between(air, span.begin, max(ATMOS_STEPS / 2, 2));
@@ -101,7 +106,7 @@ vec3 landscape_color(vec2 pixel, vec2 resolution, vec4 mouse, float time) {
                      : behind_air(air, light);
   AirLight between = air_between(air, met ? t : 1e9, ATMOS_STEPS);
   vec3 seen = surface * between.transmittance + between.light;
-  seen = with_clouds(seen, ray, air, met ? t : 1e9, light, pixel_noise(pixel), time);
+  seen = with_clouds(seen, ray, air, met ? t : 1e9, light, random_of(pixel), time);
   vec3 shown = 1.0 - exp(-exposure_for(light) * max(seen, 0.0));
   return srgb_encoded(shown) + (pixel_noise(pixel + 17.0) - 0.5) / 255.0;
 }
