@@ -60,6 +60,20 @@ TEST(CameraPath, IsSmooth) {
   }
 }
 
+TEST(CameraPath, IsTheSameBackward) {
+  CameraPath back;
+  for (std::size_t k = winding.keys.size(); k-- > 0;) {
+    back.keys.push_back(winding.keys[k]);
+    back.keys.back().time = winding.end() - winding.keys[k].time;
+  }
+  for (double t = 0.05; t < 9; t += 0.1) {
+    const Camera there = camera_at(winding, t).camera;
+    const Camera again = camera_at(back, winding.end() - t).camera;
+    EXPECT_LT(glm::length(there.position - again.position), 1e-3F) << t;
+    EXPECT_LT(glm::length(there.direction - again.direction), 1e-5F) << t;
+  }
+}
+
 TEST(CameraPath, StandsStillBetweenEqualKeys) {
   const CameraPath path{{key(0, {0, 0, 0}, {1, 0, 0}), key(1, {10, 0, 0}, {1, 0, 0}),
                          key(2, {10, 0, 0}, {0, 1, 0}), key(3, {10, 20, 0}, {0, 1, 0})}};
