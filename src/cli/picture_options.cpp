@@ -15,7 +15,7 @@ std::optional<std::uint32_t> whole_number(std::string_view text) {
   return value;
 }
 
-std::string size_override(const std::string& text) {
+IVec2 parse_size(const std::string& text) {
   const auto x = text.find_first_of("xX");
   const auto width = x == std::string::npos ? std::nullopt : whole_number(text.substr(0, x));
   const auto height = x == std::string::npos ? std::nullopt : whole_number(text.substr(x + 1));
@@ -25,7 +25,12 @@ std::string size_override(const std::string& text) {
                 fmt::format("'--size {}' must be width x height in pixels, such as 1280x720, each "
                             "1 to 65536",
                             text));
-  return fmt::format("render.size=[{}, {}]", *width, *height);
+  return {static_cast<int>(*width), static_cast<int>(*height)};
+}
+
+std::string size_override(const std::string& text) {
+  const IVec2 size = parse_size(text);
+  return fmt::format("render.size=[{}, {}]", size.x, size.y);
 }
 
 }  // namespace wold

@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -18,9 +19,10 @@
 #include "image/atomic_file.hpp"
 #include "image/io.hpp"
 #include "image/tonemap.hpp"
-#include "raster/scene_drawing.hpp"
-#include "scene/build.hpp"
-#include "scene/planted_world.hpp"
+#include "view/film_maker.hpp"
+#include "view/recording.hpp"
+#include "view/viewer_screen.hpp"
+#include "view/window_loop.hpp"
 
 namespace wold {
 
@@ -33,105 +35,311 @@ struct ViewOptions {
   std::string screenshot;
   std::string size;
   std::string camera;
-  std::string quality = "high";
-  int samples = 32;
-  int frames = 0;
+  std::string quality;
+  std::string frames;
+  std::string path;
+  std::string output = "frame_%04d.png";
+  std::string renderer = "drawn";
+  std::string video;
+  std::string record;
+  std::string replay;
+  int samples = 0;
+  double frames_per_second = 25;
+  bool resume = false;
+  bool interface = false;
 };
+
+const std::vector<std::string> picture_names{".exr", ".png"};
 
 double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Pictures without a window.
+std::optional<DrawingQuality> quality_of(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  if (name == "low") return DrawingQuality::low;
+  return name == "medium" ? DrawingQuality::medium : DrawingQuality::high;
+}
+
+ViewerSettings viewer_settings(const Session& session, const ViewOptions& options) {
+  ViewerSettings settings;
+  settings.scene = options.scene;
+  settings.overrides = session.overrides();
+  if (!options.size.empty()) settings.overrides.push_back(size_override(options.size));
+  settings.camera = options.camera;
+  return settings;
+}
+
+/// Milliseconds of frames, as users compare them.
+struct FrameTimes {
+  double median = 0;
+  double worst = 0;
+  double per_second = 0;
+};
+
+FrameTimes frame_times(std::vector<double> milliseconds) {
+  if (milliseconds.empty()) return {};
+  double sum = 0;
+  for (const double ms : milliseconds) sum += ms;
+  std::sort(milliseconds.begin(), milliseconds.end());
+  return {milliseconds[milliseconds.size() / 2], milliseconds.back(),
+          1000 * static_cast<double>(milliseconds.size()) / sum};
+}
+
+/// What stands in a target, as a picture.
+Image shown_image(const GpuTarget& screen) {
+  const std::vector<float> pixels = screen.read();
+  Image image(screen.width(), screen.height(), {"R", "G", "B"});
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        image.at(x, y, c) = pixels[4 * (static_cast<std::size_t>(image.height - 1 - y) *
+                                            static_cast<std::size_t>(image.width) +
+                                        static_cast<std::size_t>(x)) +
+                                   static_cast<std::size_t>(c)];
+  return image;
+}
+
+/// Pictures without a window: a still, a number of frames, a recorded session or a film.
 class OffscreenRun {
  public:
   OffscreenRun(const Session& session, ViewOptions options)
       : session_(session), options_(std::move(options)) {}
 
   void run() {
-    std::vector<std::string> overrides = session_.overrides();
-    if (!options_.size.empty()) overrides.push_back(size_override(options_.size));
-    if (!options_.screenshot.empty()) check_writable(options_.screenshot, known_);
-    Scene scene = read_scene(options_.scene, overrides);
-    const CameraSettings settings = scene.camera(options_.camera);
-    check_scene(scene);
+    prepare();
     const OffscreenContext context;
-    const GpuInfo info = gpu_info();
+    const GpuInfo gpu = gpu_info();
     Progress progress = session_.progress();
-    const ToneMapping tone = scene.picture;
-    const IVec2 size = scene.render.size;
-    PlantedWorld world(std::move(scene), progress);
-    const Camera camera = world.camera(settings, progress);
-    SceneDrawing drawing(world, scene_detail(quality()), progress);
-    drawing.resize(size.x, size.y);
-    drawing.settle(camera);
-    const int frames = options_.frames > 0 ? options_.frames : options_.samples;
     const auto start = Clock::now();
-    {
-      const ProgressStage stage(progress, "drawing", frames, "frames");
-      for (int k = 0; k < frames; ++k) {
-        drawing.draw(camera);
-        progress.advance();
-      }
-    }
-    const double seconds = since(start);
-    session_.say(fmt::format("{}: {} frames in {:.2f} s, {:.1f} ms each", info.renderer, frames,
-                             seconds, 1000 * seconds / frames));
-    if (options_.screenshot.empty()) return;
-    const Image image = drawing.picture().linear_image();
-    delivery_.write(options_.screenshot,
-                    [&](const std::string& path) { write_one(path, image, tone); });
+    ViewedScene scene = load_viewed_scene(settings_, progress);
+    Viewer viewer(settings_, std::move(scene), progress);
+    viewer.set_exposure_lag(false);
+    const double loading = since(start);
+    const IVec2 size = viewer.scene().render.size;
+    viewer.resize(size.x, size.y);
+    const auto drawing = Clock::now();
+    if (!options_.path.empty())
+      film(viewer, progress);
+    else
+      draw_frames(viewer, progress);
+    report(viewer, gpu, loading, since(drawing));
     delivery_.check();
   }
 
  private:
-  static void write_one(const std::string& path, const Image& image, const ToneMapping& tone) {
-    if (extension_of(path) == ".png")
-      write_png(path, display_image(image, tone, land_weights(image)),
-                {.bits = 8, .srgb = true, .dither = true});
-    else
-      write_exr(path, image);
+  /// Everything that can be wrong is found before any work.
+  void prepare() {
+    settings_ = viewer_settings(session_, options_);
+    settings_.watch = false;
+    const bool still = !options_.screenshot.empty() || !options_.path.empty();
+    settings_.detail = scene_detail(
+        quality_of(options_.quality).value_or(still ? DrawingQuality::high : DrawingQuality::low));
+    if (!options_.screenshot.empty()) check_writable(options_.screenshot, picture_names);
+    if (!options_.replay.empty()) replayed_ = read_recording(options_.replay);
+    if (!options_.path.empty()) prepare_film();
   }
 
-  DrawingQuality quality() const {
-    if (options_.quality == "low") return DrawingQuality::low;
-    return options_.quality == "medium" ? DrawingQuality::medium : DrawingQuality::high;
+  void prepare_film() {
+    film_.path = read_camera_path(options_.path);
+    film_.frames = FramePattern(options_.output);
+    check_writable(film_.frames.name(0), picture_names);
+    if (!options_.frames.empty()) film_.range = parse_frame_range(options_.frames);
+    film_.frames_per_second = options_.frames_per_second;
+    film_.resume = options_.resume;
+    film_.renderer = options_.renderer == "traced" ? FilmRenderer::traced : FilmRenderer::drawn;
+    if (!options_.video.empty()) check_video_writable(options_.video, film_.frames);
   }
 
-  inline static const std::vector<std::string> known_{".exr", ".png"};
+  void film(Viewer& viewer, Progress& progress) {
+    film_.size = viewer.scene().render.size;
+    const int usual =
+        film_.renderer == FilmRenderer::traced ? viewer.scene().render.samples : film_samples;
+    film_.samples = options_.samples > 0 ? options_.samples : usual;
+    frames_ = make_film(viewer, film_, progress);
+    if (options_.video.empty()) return;
+    const FrameRange range = film_.range.value_or(all_frames(film_.path, film_.frames_per_second));
+    write_video(options_.video, film_.frames, range,
+                {.frames_per_second = film_.frames_per_second});
+    outputs_.push_back(options_.video);
+  }
+
+  /// How many frames are asked for: given, recorded, or enough for a smooth still.
+  int frame_count() const {
+    if (!replayed_.empty()) return static_cast<int>(replayed_.size());
+    if (!options_.frames.empty()) return parse_frame_range(options_.frames).count();
+    return options_.samples > 0 ? options_.samples : still_samples;
+  }
+
+  void draw_frames(Viewer& viewer, Progress& progress) {
+    const int count = frame_count();
+    const IVec2 size(viewer.picture().width(), viewer.picture().height());
+    const GpuTarget screen(size.x, size.y, std::array{PixelFormat::rgba8}, false);
+    std::optional<Interface> interface;
+    std::optional<ViewerScreen> shown;
+    if (options_.interface) {
+      interface.emplace();
+      shown.emplace(viewer, *interface);
+    }
+    viewer.settle();
+    {
+      const ProgressStage stage(progress, "drawing", count, "frames");
+      for (int k = 0; k < count; ++k) {
+        Controls controls;
+        controls.seconds = 1.0 / 60;
+        if (!replayed_.empty()) controls = replayed_[static_cast<std::size_t>(k)];
+        GpuTimer timer;
+        timer.begin();
+        if (shown)
+          shown->frame(controls, size, screen.id());
+        else
+          viewer.frame(controls);
+        milliseconds_.push_back(timer.end());
+        progress.advance();
+      }
+    }
+    frames_ = count;
+    if (!options_.screenshot.empty()) write_still(viewer, options_.interface ? &screen : nullptr);
+  }
+
+  void write_still(const Viewer& viewer, const GpuTarget* screen) {
+    const Image image = viewer.picture().linear_image();
+    const std::string written = delivery_.write(options_.screenshot, [&](const std::string& path) {
+      if (extension_of(path) == ".exr") return write_exr(path, image);
+      ToneMapping tone = viewer.tone();
+      tone.auto_exposure = false;
+      tone.exposure = viewer.exposure();
+      const Image display = screen != nullptr ? shown_image(*screen) : display_image(image, tone);
+      write_png(path, display, {.bits = 8, .srgb = true, .dither = screen == nullptr});
+    });
+    if (!written.empty()) outputs_.push_back(written);
+  }
+
+  void report(const Viewer& viewer, const GpuInfo& gpu, double loading, double seconds) const {
+    const IVec2 size = viewer.scene().render.size;
+    const FrameTimes times = frame_times(milliseconds_);
+    std::string what =
+        fmt::format("{} frames of {} x {} in {}", frames_, size.x, size.y, duration_text(seconds));
+    if (times.median > 0) what += fmt::format(", {:.1f} ms each (median)", times.median);
+    session_.say(fmt::format("{} by {}", what, gpu.renderer));
+    if (!outputs_.empty()) session_.say(fmt::format("wrote {}", fmt::join(outputs_, " and ")));
+    session_.print({{"command", "view"},
+                    {"scene", options_.scene},
+                    {"outputs", outputs_},
+                    {"device", gpu.renderer},
+                    {"opengl", gpu.version},
+                    {"size", {size.x, size.y}},
+                    {"frames", frames_},
+                    {"seconds", {{"scene", loading}, {"drawing", seconds}}},
+                    {"milliseconds", {{"median", times.median}, {"worst", times.worst}}},
+                    {"frames_per_second", times.per_second},
+                    {"triangles", viewer.drawing().drawn_triangles()},
+                    {"peak_memory_bytes", peak_memory()}});
+  }
+
+  static constexpr int still_samples = 24;
+  static constexpr int film_samples = 12;
 
   const Session& session_;
   ViewOptions options_;
+  ViewerSettings settings_;
+  FilmSettings film_;
+  std::vector<Controls> replayed_;
+  std::vector<double> milliseconds_;
+  std::vector<std::string> outputs_;
+  int frames_ = 0;
   Delivery delivery_;
 };
+
+void run_in_window(const Session& session, const ViewOptions& options) {
+  WindowLoopSettings settings;
+  settings.viewer = viewer_settings(session, options);
+  read_scene(settings.viewer.scene, settings.viewer.overrides).camera(options.camera);
+  settings.quality = quality_of(options.quality);
+  settings.record = options.record;
+  settings.path_file = std::filesystem::path(options.scene).stem().string() + "-camera.toml";
+  if (!options.size.empty()) {
+    const IVec2 size = parse_size(options.size);
+    settings.width = size.x;
+    settings.height = size.y;
+  }
+  const WindowLoopResult result = run_window(settings, session.interrupted);
+  session.print({{"command", "view"},
+                 {"scene", options.scene},
+                 {"frames", result.frames},
+                 {"seconds", {{"flying", result.seconds}}},
+                 {"peak_memory_bytes", peak_memory()}});
+}
+
+void add_view_options(CLI::App& command, ViewOptions& options) {
+  command.add_option("scene", options.scene, "The scene's TOML file")
+      ->required()
+      ->type_name("SCENE");
+  command.add_option("--size", options.size, "Size of window or picture in pixels")
+      ->type_name("WxH");
+  command.add_option("--camera", options.camera, "Which of the scene's cameras to begin at")
+      ->type_name("NAME");
+  command
+      .add_option("--quality", options.quality,
+                  "low, medium or high; else by the device, and high for pictures")
+      ->check(CLI::IsMember({"low", "medium", "high"}));
+  command.add_option("--record", options.record, "Write the session's controls to a file")
+      ->type_name("FILE");
+  const std::string offscreen = "Without a window";
+  command.add_option("--screenshot", options.screenshot, "Write a picture, .png or .exr, and end")
+      ->type_name("FILE")
+      ->group(offscreen);
+  command
+      .add_option("--samples", options.samples, "Frames (or light paths) whose mean is a picture")
+      ->check(CLI::Range(1, 65536))
+      ->group(offscreen);
+  command
+      .add_option("--frames", options.frames,
+                  "Draw so many frames and tell their speed; of a film, the frames to make")
+      ->type_name("N|A:B")
+      ->group(offscreen);
+  command.add_option("--replay", options.replay, "Fly a recorded session again")
+      ->type_name("FILE")
+      ->group(offscreen);
+  command.add_flag("--interface", options.interface, "Show panel and help in the picture, too")
+      ->group(offscreen);
+  const std::string film = "Films";
+  command.add_option("--path", options.path, "Fly along a path of camera keys")
+      ->type_name("FILE")
+      ->group(film);
+  command.add_option("-o,--output", options.output, "Names of the frames, such as frame_%04d.png")
+      ->type_name("PATTERN")
+      ->group(film);
+  command.add_option("--renderer", options.renderer, "drawn in real time, or traced")
+      ->check(CLI::IsMember({"drawn", "traced"}))
+      ->group(film);
+  command.add_option("--fps", options.frames_per_second, "Frames per second")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->group(film);
+  command.add_option("--video", options.video, "Also make a video, .mp4, with FFmpeg")
+      ->type_name("FILE")
+      ->group(film);
+  command.add_flag("--resume", options.resume, "Leave out frames that are there already")
+      ->group(film);
+}
 
 }  // namespace
 
 void add_view(CLI::App& app, Session& session) {
   auto options = std::make_shared<ViewOptions>();
-  CLI::App* command = app.add_subcommand("view", "Fly through a scene");
-  command->add_option("scene", options->scene, "The scene's TOML file")
-      ->required()
-      ->type_name("SCENE");
-  command
-      ->add_option("--screenshot", options->screenshot,
-                   "Write a picture, .png or .exr, without a window")
-      ->type_name("FILE");
-  command->add_option("--size", options->size, "Size of the picture in pixels")->type_name("WxH");
-  command->add_option("--camera", options->camera, "Which of the scene's cameras")
-      ->type_name("NAME");
-  command->add_option("--samples", options->samples, "Frames whose mean is the screenshot")
-      ->check(CLI::Range(1, 65536));
-  command->add_option("--frames", options->frames, "Draw so many frames without a window")
-      ->check(CLI::Range(1, 1000000));
-  command->add_option("--quality", options->quality, "How fine: low, medium or high")
-      ->check(CLI::IsMember({"low", "medium", "high"}));
+  CLI::App* command = app.add_subcommand("view", "Fly through a scene, in a window");
+  add_view_options(*command, *options);
   session.add_scene_options(*command);
   session.add_output_options(*command);
   command->callback([&session, options] {
     std::optional<ThreadLimit> limit;
     if (session.threads > 0) limit.emplace(session.threads);
-    OffscreenRun(session, *options).run();
+    const bool offscreen = !options->screenshot.empty() || !options->frames.empty() ||
+                           !options->path.empty() || !options->replay.empty();
+    if (offscreen)
+      OffscreenRun(session, *options).run();
+    else
+      run_in_window(session, *options);
   });
 }
 

@@ -1,6 +1,8 @@
 #include "raster/scene_drawing.hpp"
 
-#include <cmath>
+#include <thread>
+
+#include "scene/same_scene.hpp"
 
 namespace wold {
 
@@ -36,7 +38,7 @@ SceneDetail scene_detail(DrawingQuality quality) {
 }
 
 SceneDrawing::SceneDrawing(const PlantedWorld& world, const SceneDetail& detail, Progress& progress)
-    : world_(world),
+    : world_(&world),
       light_(world.world().sky, detail.shadows),
       sun_shadows_(world.world().ground),
       terrain_(world.world().ground, detail.terrain),
@@ -51,8 +53,8 @@ void SceneDrawing::find_near_plants(const Camera& camera) {
   near_eye_ = eye;
   const float spacing_angle = near_spacing_pixels * default_pixel_angle;
   finding_near_.begin([this, eye, place = camera.position, spacing_angle](Progress& progress) {
-    std::vector<ModelInstance> plants = world_.plants_near(eye, progress);
-    world_.set_on_drawn_ground(plants, place, spacing_angle);
+    std::vector<ModelInstance> plants = world_->plants_near(eye, progress);
+    world_->set_on_drawn_ground(plants, place, spacing_angle);
     return plants;
   });
 }
@@ -93,12 +95,25 @@ void SceneDrawing::set_sky(const SkySettings& sky) {
   picture_.sky_changed();
 }
 
-void SceneDrawing::update_ground(const Ground& ground) {
-  terrain_.update(ground);
-  sun_shadows_ = SunShadowMap(ground);
-  shade_land(ground);
-  light_.shadows().forget();
-  picture_.restart();
+void SceneDrawing::replace(const PlantedWorld& world, Progress& progress) {
+  if (finding_near_.busy()) {
+    finding_near_.cancel();
+    while (!finding_near_.take()) std::this_thread::yield();
+  }
+  near_eye_.reset();
+  const World& next = world.world();
+  if (same_models(world_->scene(), world.scene()))
+    plants_.set_plants(next.instances);
+  else
+    plants_ = PlantDrawing(next, progress, plants_.detail());
+  plants_.set_near_plants({});
+  world_ = &world;
+  terrain_.update(next.ground);
+  light_.set_canopy(canopy_shade(next));
+  light_.set_sky(next.sky);
+  sun_shadows_ = SunShadowMap(next.ground);
+  shade_land(next.ground);
+  picture_.sky_changed();
 }
 
 void SceneDrawing::shade_land(const Ground& ground) {

@@ -43,8 +43,9 @@ class SceneDrawing {
 
   /// Another moment over the same land.
   void set_sky(const SkySettings& sky);
-  /// The ground's heights, maps or colours have changed.
-  void update_ground(const Ground& ground);
+  /// Another world in place of this one; keeps what draws plants whose models are the same. Throws
+  /// as the constructor.
+  void replace(const PlantedWorld& world, Progress& progress);
 
   PictureDrawing& picture() { return picture_; }
   const PictureDrawing& picture() const { return picture_; }
@@ -57,7 +58,7 @@ class SceneDrawing {
   void find_near_plants(const Camera& camera);
   bool take_near_plants();
 
-  const PlantedWorld& world_;
+  const PlantedWorld* world_;
   SceneLight light_;
   SunShadowMap sun_shadows_;
   TerrainDrawing terrain_;

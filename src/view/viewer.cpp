@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "scene/build.hpp"
-#include "sky/sun_position.hpp"
+#include "view/parameter_widgets.hpp"
 
 namespace wold {
 
@@ -30,20 +30,6 @@ IVec2 scaled_size(int width, int height, int longest) {
   return {part(width), part(height)};
 }
 
-/// Hours of the day, 0 to 24.
-double hour_of(const DateTime& time) {
-  return time.hour + time.minute / 60.0 + time.second / 3600;
-}
-
-DateTime with_hour(DateTime time, double hours) {
-  hours = hours - 24 * std::floor(hours / 24);
-  time.hour = std::min(23, static_cast<int>(hours));
-  const double minutes = (hours - time.hour) * 60;
-  time.minute = std::clamp(static_cast<int>(minutes), 0, 59);
-  time.second = std::clamp((minutes - time.minute) * 60, 0.0, 59.999);
-  return time;
-}
-
 std::vector<Line> lines_of(const TestRays& rays, float radiance) {
   const Vec3 sunlit = radiance * Vec3(1, 0.75F, 0.15F);
   const Vec3 shaded = radiance * Vec3(0.2F, 0.45F, 1);
@@ -62,21 +48,32 @@ std::vector<Line> lines_of(const TestRays& rays, float radiance) {
 
 }  // namespace
 
-Viewer::Viewer(ViewerSettings settings, Progress& progress) : settings_(std::move(settings)) {
-  Scene scene = read_scene(settings_.scene, settings_.overrides);
-  const CameraSettings begin = scene.camera(settings_.camera);
+ViewedScene load_viewed_scene(const ViewerSettings& settings, Progress& progress) {
+  Scene scene = read_scene(settings.scene, settings.overrides);
+  const CameraSettings begin = scene.camera(settings.camera);
   check_scene(scene);
-  note_file_times();
-  use(std::make_shared<PlantedWorld>(std::move(scene), progress), progress);
-  place(world_->camera(begin, progress));
+  ViewedScene viewed;
+  viewed.world = std::make_shared<PlantedWorld>(std::move(scene), progress);
+  viewed.camera = viewed.world->camera(begin, progress);
+  return viewed;
 }
 
-void Viewer::use(std::shared_ptr<PlantedWorld> world, Progress& progress) {
-  // What draws the old world goes before it.
-  auto drawing = std::make_unique<SceneDrawing>(*world, settings_.detail, progress);
-  drawing->resize(width_, height_);
-  drawing_ = std::move(drawing);
+Viewer::Viewer(ViewerSettings settings, ViewedScene scene, Progress& progress)
+    : settings_(std::move(settings)), world_(std::move(scene.world)) {
+  note_file_times();
+  drawing_ = std::make_unique<SceneDrawing>(*world_, settings_.detail, progress);
+  take_over();
+  place(scene.camera);
+}
+
+void Viewer::use(std::shared_ptr<PlantedWorld> world) {
+  Progress silent;
+  drawing_->replace(*world, silent);
   world_ = std::move(world);
+  take_over();
+}
+
+void Viewer::take_over() {
   edited_ = world_->scene();
   cameras_.clear();
   for (const CameraSettings& camera : world_->scene().cameras)
@@ -109,13 +106,14 @@ void Viewer::resize(int width, int height) {
 
 void Viewer::load(Scene scene) {
   error_.clear();
-  loading_.begin([scene = std::move(scene)](Progress& progress) mutable {
-    return Loaded{std::make_shared<PlantedWorld>(std::move(scene), progress)};
+  loading_.begin([scene = std::move(scene), before = world_](Progress& progress) mutable {
+    return std::make_shared<PlantedWorld>(std::move(scene), progress, before.get());
   });
 }
 
 void Viewer::reload() {
   note_file_times();
+  is_edited_ = false;
   try {
     Scene scene = read_scene(settings_.scene, settings_.overrides);
     check_scene(scene);
@@ -127,6 +125,7 @@ void Viewer::reload() {
 }
 
 void Viewer::edited(Change change) {
+  is_edited_ = true;
   if (change == Change::picture) return;
   if (change == Change::light) {
     try {
@@ -147,16 +146,14 @@ void Viewer::edited(Change change) {
 }
 
 void Viewer::take_loaded() {
-  std::optional<BackgroundJob<Loaded>::Outcome> outcome = loading_.take();
+  std::optional<BackgroundJob<std::shared_ptr<PlantedWorld>>::Outcome> outcome = loading_.take();
   if (!outcome) return;
   if (const auto* error = std::get_if<Error>(&*outcome)) {
     if (error->kind() != ErrorKind::cancelled) error_ = error->message();
     return;
   }
   try {
-    Progress silent;
-    use(std::get<Loaded>(std::move(*outcome)).world, silent);
-    notices_.push_back({fmt::format("{} loaded", settings_.scene.filename().string())});
+    use(std::get<0>(std::move(*outcome)));
   } catch (const Error& error) {
     error_ = error.message();
   }
@@ -172,7 +169,7 @@ void Viewer::watch_files() {
 
 void Viewer::set_hour(double hours) {
   edited_.sky.sun.clear();
-  edited_.sky.time = with_hour(edited_.sky.time, hours);
+  edited_.sky.time = with_hour(edited_.sky.time, hours - 24 * std::floor(hours / 24));
   edited(Change::light);
 }
 
@@ -226,14 +223,20 @@ void Viewer::obey(const Controls& c) {
 }
 
 void Viewer::adapt_exposure(double seconds) {
-  const bool first = frames_to_metering_ == 0 && metered_ == 0;
-  if (--frames_to_metering_ <= 0) {
+  if (--frames_to_metering_ <= 0 || !exposure_lags_) {
     frames_to_metering_ = metering_interval;
     metered_ = drawing_->picture().metered_exposure();
   }
   const float wanted = edited_.picture.exposure + (edited_.picture.auto_exposure ? metered_ : 0.0F);
-  const double share = first ? 1 : -std::expm1(-exposure_rate * seconds);
+  const bool slowly = exposure_lags_ && metered_once_;
+  const double share = slowly ? -std::expm1(-exposure_rate * seconds) : 1;
+  metered_once_ = true;
   exposure_ += static_cast<float>(share) * (wanted - exposure_);
+}
+
+float Viewer::height_above_ground() const {
+  const Vec3 eye = camera().position;
+  return eye.z - world_->world().ground.base(DVec2(eye.x, eye.y)).height;
 }
 
 void Viewer::frame(const Controls& controls) {
@@ -249,8 +252,12 @@ void Viewer::frame(const Controls& controls) {
   pilot_ = flown(pilot_, controls,
                  {[&ground](DVec2 at) { return ground.detailed(at, 1).height; }, cameras_});
   if (width_ <= 0 || height_ <= 0) return;
-  drawing_->draw(camera(), [this](const DrawView& view) { lines_.draw(view); });
+  draw();
   adapt_exposure(controls.seconds);
+}
+
+void Viewer::draw() {
+  drawing_->draw(camera(), [this](const DrawView& view) { lines_.draw(view); });
 }
 
 void Viewer::show(int width, int height) const {

@@ -38,14 +38,26 @@ struct ViewerNotice {
   bool error = false;
 };
 
+/// A scene ready to be looked at.
+struct ViewedScene {
+  std::shared_ptr<PlantedWorld> world;
+  Camera camera;
+};
+
+/// Reads and builds a scene, and finds the camera to begin with. Throws as read_scene and
+/// PlantedWorld. Any thread.
+ViewedScene load_viewed_scene(const ViewerSettings& settings, Progress& progress);
+
 class Viewer {
  public:
-  /// Loads the scene and makes what draws it. Needs a current context. Throws as read_scene and
-  /// PlantedWorld.
-  Viewer(ViewerSettings settings, Progress& progress);
+  /// Makes what draws the scene. Needs a current context. Throws as SceneDrawing.
+  Viewer(ViewerSettings settings, ViewedScene scene, Progress& progress);
 
   /// Does what the controls ask for, takes what is ready, draws one frame.
   void frame(const Controls& controls);
+  /// One frame more of the camera where it is, and nothing else.
+  void draw();
+  void restart_picture() { drawing_->picture().restart(); }
   /// A window's size in pixels; 0 when it is hidden: then frames draw nothing.
   void resize(int width, int height);
   /// Brings the picture into the bound framebuffer of that size.
@@ -57,18 +69,32 @@ class Viewer {
   /// What has been changed in `edit()`.
   enum class Change { picture, light, everything };
   void edited(Change change);
+  /// Whether what is shown is not what the scene's file says.
+  bool is_edited() const { return is_edited_; }
 
+  const std::shared_ptr<PlantedWorld>& world() const { return world_; }
   const PictureDrawing& picture() const { return drawing_->picture(); }
   const SceneDrawing& drawing() const { return *drawing_; }
   const Pilot& pilot() const { return pilot_; }
   void place(const Camera& camera);
+  /// Waits until all that the camera sees is there.
+  void settle() { drawing_->settle(camera()); }
   Camera camera() const { return camera_of(pilot_); }
+  /// m, above the ground.
+  float height_above_ground() const;
   /// Stops of the picture as shown.
   float exposure() const { return exposure_; }
   const ToneMapping& tone() const { return edited_.picture; }
+  /// The scene as edited, to read.
+  const Scene& edited_scene() const { return edited_; }
+  /// The scene's name.
+  std::string title() const { return settings_.scene.stem().string(); }
 
   TracedView& traced() { return traced_; }
   const TestRays& rays() const { return rays_; }
+
+  /// Whether a new brightness is got used to slowly; else at once, frame by frame, for films.
+  void set_exposure_lag(bool lag) { exposure_lags_ = lag; }
 
   /// Whether a scene is being loaded, and how far it is.
   bool loading() const { return loading_.busy(); }
@@ -85,17 +111,14 @@ class Viewer {
   int generation() const { return generation_; }
 
  private:
-  struct Loaded {
-    std::shared_ptr<PlantedWorld> world;
-  };
-
   void obey(const Controls& controls);
   void take_loaded();
   void take_rays();
   void watch_files();
   void reload();
   void load(Scene scene);
-  void use(std::shared_ptr<PlantedWorld> world, Progress& progress);
+  void use(std::shared_ptr<PlantedWorld> world);
+  void take_over();
   void note_file_times();
   void set_hour(double hours);
   void adapt_exposure(double seconds);
@@ -106,7 +129,7 @@ class Viewer {
   Scene edited_;
   Pilot pilot_;
   std::vector<Camera> cameras_;
-  BackgroundJob<Loaded> loading_;
+  BackgroundJob<std::shared_ptr<PlantedWorld>> loading_;
   TracedView traced_;
   BackgroundJob<TestRays> tracing_rays_;
   TestRays rays_;
@@ -114,11 +137,14 @@ class Viewer {
   int width_ = 0;
   int height_ = 0;
   float exposure_ = 0;
+  bool exposure_lags_ = true;
+  bool metered_once_ = false;
   float metered_ = 0;
   int frames_to_metering_ = 0;
   bool animate_sun_ = false;
   double seconds_to_watch_ = 0;
   std::vector<std::pair<std::filesystem::path, std::filesystem::file_time_type>> file_times_;
+  bool is_edited_ = false;
   std::string error_;
   std::vector<ViewerNotice> notices_;
   std::optional<std::string> clipboard_;

@@ -1,0 +1,126 @@
+#include "view/film_maker.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "image/atomic_file.hpp"
+#include "image/io.hpp"
+#include "image/tonemap.hpp"
+#include "render/render.hpp"
+#include "view/parameter_widgets.hpp"
+
+namespace wold {
+
+namespace {
+
+constexpr IVec2 metering_size{320, 180};
+constexpr int metering_frames = 4;
+
+/// The scene's light as a path's view has it.
+SkySettings sky_of(const SkySettings& scene, const PathView& view) {
+  SkySettings sky = scene;
+  if (view.sun) sky.sun = {view.sun->x, view.sun->y};
+  if (view.hour && !view.sun) {
+    sky.sun.clear();
+    sky.time = with_hour(sky.time, *view.hour);
+  }
+  return sky;
+}
+
+void look(Viewer& viewer, const SkySettings& scene, const PathView& view) {
+  const bool moves = view.sun || view.hour;
+  if (moves) {
+    viewer.edit().sky = sky_of(scene, view);
+    viewer.edited(Viewer::Change::light);
+  }
+  viewer.place(view.camera);
+  viewer.settle();
+}
+
+Image drawn(Viewer& viewer, int frames, Progress& progress) {
+  viewer.restart_picture();
+  for (int k = 0; k < frames; ++k) {
+    progress.check();
+    viewer.draw();
+  }
+  return viewer.picture().linear_image();
+}
+
+Image traced(Viewer& viewer, const FilmSettings& film, Progress& progress) {
+  PlantedWorld& world = *viewer.world();
+  const SkySettings sky = viewer.edited_scene().sky;
+  const TracedWorld scene = world.traced(viewer.camera(), film.size, progress, &sky);
+  Film picture(film.size.x, film.size.y);
+  trace_picture(*scene.rays, CameraRays(viewer.camera(), film.size.x, film.size.y),
+                world.scene().render,
+                {{0, static_cast<std::uint32_t>(film.samples)}, world.scene().header.seed, false},
+                picture, progress);
+  return picture.image();
+}
+
+void write_frame(const std::string& name, const Image& image, const ToneMapping& tone,
+                 float stops) {
+  if (extension_of(name) == ".exr") return write_exr(name, image);
+  ToneMapping fixed = tone;
+  fixed.auto_exposure = false;
+  fixed.exposure = stops;
+  write_png(name, display_image(image, fixed), {.bits = 8, .srgb = true, .dither = true});
+}
+
+std::vector<float> stops_at_keys(Viewer& viewer, const SkySettings& sky, const CameraPath& path,
+                                 Progress& progress) {
+  const ToneMapping tone = viewer.tone();
+  std::vector<float> stops;
+  viewer.resize(metering_size.x, metering_size.y);
+  for (const CameraKey& key : path.keys) {
+    if (!tone.auto_exposure) {
+      stops.push_back(tone.exposure);
+      continue;
+    }
+    look(viewer, sky, camera_at(path, key.time));
+    drawn(viewer, metering_frames, progress);
+    stops.push_back(tone.exposure + viewer.picture().metered_exposure());
+  }
+  return stops;
+}
+
+}  // namespace
+
+FrameRange all_frames(const CameraPath& path, double frames_per_second) {
+  const double seconds = path.end() - path.begin();
+  return {0, 1 + static_cast<int>(std::floor(seconds * frames_per_second + 1e-6))};
+}
+
+float exposure_at(const CameraPath& path, const std::vector<float>& stops, double time) {
+  const auto after = std::find_if(path.keys.begin(), path.keys.end(),
+                                  [time](const CameraKey& key) { return key.time >= time; });
+  const auto k = static_cast<std::size_t>(after - path.keys.begin());
+  if (k == 0) return stops.front();
+  if (k == stops.size()) return stops.back();
+  const double span = path.keys[k].time - path.keys[k - 1].time;
+  const auto share = static_cast<float>((time - path.keys[k - 1].time) / std::max(span, 1e-9));
+  return std::lerp(stops[k - 1], stops[k], share);
+}
+
+int make_film(Viewer& viewer, const FilmSettings& film, Progress& progress) {
+  const FrameRange range = film.range.value_or(all_frames(film.path, film.frames_per_second));
+  const std::vector<int> frames = frames_to_make(film.frames, range, film.resume);
+  const SkySettings sky = viewer.scene().sky;
+  const std::vector<float> stops = stops_at_keys(viewer, sky, film.path, progress);
+  viewer.resize(film.size.x, film.size.y);
+  const ProgressStage stage(progress, "filming", static_cast<double>(frames.size()), "frames");
+  for (const int frame : frames) {
+    const double time = film.path.begin() + frame / film.frames_per_second;
+    const PathView view = camera_at(film.path, time);
+    look(viewer, sky, view);
+    const Image image = film.renderer == FilmRenderer::drawn ? drawn(viewer, film.samples, progress)
+                                                             : traced(viewer, film, progress);
+    write_frame(
+        film.frames.name(frame), image, viewer.tone(),
+        exposure_at(film.path, stops, time) + static_cast<float>(view.exposure.value_or(0)));
+    progress.advance();
+  }
+  return static_cast<int>(frames.size());
+}
+
+}  // namespace wold
