@@ -141,8 +141,8 @@ class OffscreenRun {
   }
 
   void prepare_film() {
-    film_.path = read_camera_path(options_.path);
     film_.frames = FramePattern(options_.output);
+    film_.path = read_camera_path(options_.path);
     check_writable(film_.frames.name(0), picture_names);
     if (!options_.frames.empty()) film_.range = parse_frame_range(options_.frames);
     film_.frames_per_second = options_.frames_per_second;
