@@ -67,27 +67,53 @@ Relief survey(const Scene& scene, const std::vector<TerrainStep>& all, double fa
   return relief_of(result.field.height);
 }
 
-/// Ridges in the place of steps that raise mountains but cannot be told by a function: as high as
-/// the finished land is. Returns what was done, or "".
+TerrainStep made_step(const char* op, const char* name,
+                      std::initializer_list<std::pair<const char*, double>> values) {
+  TerrainStep step = make_step(scene_operators(), op);
+  step.settings.name = name;
+  for (const auto& [key, value] : values) assign(step, key, Value{value});
+  return step;
+}
+
+/// Ranges in the place of steps that raise mountains but cannot be told by a function: about as
+/// high as the finished land is, with arêtes and gullies on them. Returns what was done, or "".
 std::string stand_in(const Scene& scene, std::vector<TerrainStep>& steps, Progress& progress) {
   const Relief finished = survey(scene, scene.steps, 1, progress);
   const Relief told = survey(scene, steps, 1, progress);
-  const float missing = (finished.most.high - finished.most.low) - (told.most.high - told.most.low);
-  if (!(missing > 0.3F * (finished.most.high - finished.most.low))) return "";
+  const double missing =
+      double{(finished.most.high - finished.most.low) - (told.most.high - told.most.low)};
+  if (!(missing > 0.3 * double{finished.most.high - finished.most.low})) return "";
   const DVec2 size = domain_of(scene.terrain).size;
-  const double feature = 0.3 * std::max(size.x, size.y);
-  TerrainStep ridges = make_step(scene_operators(), "ridged");
-  ridges.settings.name = "stand-in";
-  assign(ridges, "height", Value{double{missing}});
-  assign(ridges, "base", Value{double{finished.most.low - told.most.low}});
-  assign(ridges, "feature_size", Value{feature});
-  TerrainStep bends = make_step(scene_operators(), "warp");
-  bends.settings.name = "stand-in bends";
-  assign(bends, "distance", Value{0.06 * feature});
-  assign(bends, "feature_size", Value{0.6 * feature});
-  steps.push_back(ridges);
-  steps.push_back(bends);
+  // Between the first and the last hundredth of the land ridges span two thirds of their height.
+  const double height = 1.5 * missing;
+  const double feature = std::min(0.3 * std::max(size.x, size.y), 4 * height);
+  const double base = double{finished.most.low - told.most.low} - 0.1 * height;
+  TerrainStep ranges =
+      made_step("ridged", "ranges",
+                {{"height", height}, {"base", base}, {"feature_size", feature}, {"hurst", 1.1}});
+  assign(ranges, "octaves", Value{std::int64_t{5}});
+  steps.push_back(std::move(ranges));
+  steps.push_back(
+      made_step("warp", "bends", {{"distance", 0.05 * feature}, {"feature_size", 0.5 * feature}}));
+  steps.push_back(
+      made_step("ridged", "aretes",
+                {{"height", 0.13 * height}, {"feature_size", 0.12 * feature}, {"hurst", 0.95}}));
   return fmt::format("ridges {:.0f} m high stand in for them", missing);
+}
+
+/// Stops that make up for land darker than most, as a photographer would.
+float exposure_of(const Scene& scene, const Relief& relief, bool trees) {
+  const GroundMaterial& g = scene.ground;
+  const auto grey = [](Vec3 a, Vec3 b) {
+    return 0.5F * glm::dot(a + b, Vec3(0.2126F, 0.7152F, 0.0722F));
+  };
+  const float middle = 0.5F * (relief.most.low + relief.most.high);
+  float level = glm::mix(grey(g.soil_color1, g.soil_color2), grey(g.grass_color1, g.grass_color2),
+                         g.grass_cover);
+  if (trees) level = glm::mix(level, grey(g.canopy_color1, g.canopy_color2), 0.6F);
+  if (middle > g.rock_height.low) level = grey(g.rock_color1, g.rock_color2);
+  if (middle > g.snow_height.low) level = glm::mix(level, grey(g.snow_color, g.snow_color), 0.5F);
+  return std::clamp(0.6F * std::log2(0.2F / std::max(level, 0.01F)), 0.0F, 1.0F);
 }
 
 bool plants_trees(const Scene& scene) {
@@ -236,6 +262,7 @@ Landscape landscape_of(const Scene& scene, const LandscapeOptions& options, Prog
   add_snow(scene, relief, dressed.ground);
   out.settings.trees = plants_trees(scene) ? 0.62F : 0.0F;
   set_sky(scene, relief, out);
+  out.settings.exposure = rounded(exposure_of(dressed, relief, out.settings.trees > 0), 0.05F);
   set_camera(scene, options.camera, relief, out);
   set_values(dressed, relief, largest, out);
   out.tables = fmt::format("const Atmosphere AIR = {};\n{}", air_text(shader_air(scene.sky)),

@@ -50,7 +50,7 @@ struct LandscapeSettings {
   float cloud_back = -0.5F;
   float cloud_back_share = 0.3F;
   float wind_speed = 8;  ///< m/s
-  float cloud_shadows = 0.7F;
+  float cloud_shadows = 0.6F;
 
   float cam_height = 250;    ///< m
   float cam_speed = 60;      ///< m/s

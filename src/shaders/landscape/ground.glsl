@@ -30,11 +30,14 @@ vec3 stone_color(vec3 p, float footprint) {
   return mix(ROCK_COLOR_1, ROCK_COLOR_2, clamp(0.5 + 0.9 * n, 0.0, 1.0));
 #else
   float wide = lumps(vec3(p.xy, 2.0 * p.z), ROCK_FEATURE_SIZE, footprint, 5, 11u);
-  float beds = lumps(vec3(0.06 * p.xy, p.z + 0.2 * p.x + 6.0 * wide), 9.0, footprint, 3, 12u);
+  float level = p.z + 0.09 * p.x - 0.05 * p.y + 9.0 * wide;
+  float series = lumps(vec3(0.004 * p.xy, level), 70.0, footprint, 2, 14u);
+  float beds = lumps(vec3(0.03 * p.xy, level), 9.0, footprint, 3, 12u);
   float grain = lumps(p, 1.4, footprint, 3, 13u);
-  float tone = 0.5 + 0.75 * wide + 0.35 * beds + 0.25 * grain;
+  float tone = 0.5 + 0.5 * wide + 0.6 * series + 0.35 * beds + 0.25 * grain;
   vec3 stone = mix(ROCK_COLOR_1, ROCK_COLOR_2, clamp(tone, 0.0, 1.0));
-  return stone * (1.0 + 0.25 * beds) * mix(vec3(1.0), vec3(1.06, 1.0, 0.93), clamp(wide, 0.0, 1.0));
+  vec3 rust = mix(vec3(1.0), vec3(1.1, 1.0, 0.88), clamp(0.4 + wide + series, 0.0, 1.0));
+  return stone * (1.0 + 0.3 * beds) * rust;
 #endif
 }
 
@@ -55,8 +58,9 @@ float woods(vec2 place, float slope, float height, float footprint) {
   return gentle * low * smoothstep(-0.06, 0.06, n + TREES - 0.5);
 }
 
-// Colour at a place (the footprint already a part of the pixel's), from the wide form of the land.
-vec3 ground_color(vec2 place, vec3 wide, vec3 fine, float footprint) {
+// Colour at a place (the footprint already a part of the pixel's), from the wide form of the land;
+// `rise` is how far it stands above the land around it, m.
+vec3 ground_color(vec2 place, vec3 wide, vec3 fine, float footprint, float rise) {
   float edge = patches(place, 45.0, footprint, 4, 1u);
   float broad = patches(place, 400.0, footprint, 4, 2u);
   float height = wide.x + 60.0 * edge + 90.0 * broad;
@@ -65,13 +69,22 @@ vec3 ground_color(vec2 place, vec3 wide, vec3 fine, float footprint) {
   float steep = smoothstep(ROCK_SLOPE.x, ROCK_SLOPE.y,
                            max(slope + 6.0 * edge, 0.85 * fine_slope + 4.0 * edge));
   float rock = max(steep, smoothstep(ROCK_HEIGHT.x, ROCK_HEIGHT.y, height));
-  float snow_slope = 0.5 * (slope + fine_slope) + 8.0 * edge + 5.0 * broad;
+  // Wind fills hollows with snow and takes it from crests.
+  float snow_slope = mix(slope, fine_slope, 0.35) + 8.0 * edge + 5.0 * broad +
+                     clamp(0.35 * rise, -9.0, 7.0);
   float snow = smoothstep(SNOW_HEIGHT.x, SNOW_HEIGHT.y, height) *
                (1.0 - smoothstep(SNOW_SLOPE.x, SNOW_SLOPE.y, snow_slope));
   vec3 color = vec3(0.0);
   if (snow < 1.0) {
     if (rock < 1.0) color += (1.0 - rock) * soil_color(place, footprint, edge);
-    if (rock > 0.0) color += rock * stone_color(vec3(place, fine.x), footprint);
+    if (rock > 0.0) {
+      vec3 stone = stone_color(vec3(place, fine.x), footprint);
+      // Below the cliffs their stone lies as scree, paler and even, in fans of its own angle.
+      float scree = (1.0 - smoothstep(36.0, 43.0, slope + 6.0 * edge)) *
+                    smoothstep(4.0, -6.0, rise + 8.0 * broad);
+      vec3 loose = mix(ROCK_COLOR_1, ROCK_COLOR_2, 0.72 + 0.25 * edge) * vec3(1.03, 1.0, 0.95);
+      color += rock * mix(stone, loose, 0.75 * scree);
+    }
 #if HAS_WOODS
     float trees = woods(place, slope, wide.x, footprint);
     float crowns = patches(place, 9.0, footprint, 2, 32u);
@@ -85,7 +98,7 @@ vec3 ground_color(vec2 place, vec3 wide, vec3 fine, float footprint) {
 
 // The colour of the ground that a pixel covers: the mean of FILTERING_SAMPLES² places spread over
 // its footprint, which spans `across` and `up` on the land.
-vec3 filtered_color(vec2 place, vec2 across, vec2 up, vec3 wide, vec3 fine) {
+vec3 filtered_color(vec2 place, vec2 across, vec2 up, vec3 wide, vec3 fine, float rise) {
   float footprint = max(length(across), length(up));
 #if TEXTURE_FILTERING
   vec3 sum = vec3(0.0);
@@ -96,10 +109,15 @@ vec3 filtered_color(vec2 place, vec2 across, vec2 up, vec3 wide, vec3 fine) {
       vec2 offset = part.x * across + part.y * up;
       vec3 w = vec3(wide.x + dot(offset, wide.yz), wide.yz);
       vec3 f = vec3(fine.x + dot(offset, fine.yz), fine.yz);
-      sum += ground_color(place + offset, w, f, 0.7 * footprint / float(n));
+      sum += ground_color(place + offset, w, f, 0.7 * footprint / float(n), rise);
     }
   return sum / float(n * n);
 #else
-  return ground_color(place, wide, fine, 0.25 * footprint);
+  return ground_color(place, wide, fine, 0.25 * footprint, rise);
 #endif
+}
+
+// Where nothing is known of the land around.
+vec3 filtered_color(vec2 place, vec2 across, vec2 up, vec3 wide, vec3 fine) {
+  return filtered_color(place, across, up, wide, fine, 0.0);
 }

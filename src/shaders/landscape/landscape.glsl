@@ -3,7 +3,9 @@
 // pixels stay together in each loop.
 #include "landscape/terrain.glsl"
 #include "landscape/ground.glsl"
+#include "landscape/woods.glsl"
 #include "landscape/light.glsl"
+#include "landscape/cloud_march.glsl"
 #include "landscape/camera.glsl"
 
 // Evenly spread over pixels and their neighbours (Jimenez, "Next generation post processing in Call
@@ -56,9 +58,13 @@ vec3 land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angle, Li
   float longest = 4.0 * pixel / max(abs(dot(normal, ray.direction)), 0.1);
   across *= min(1.0, longest / max(length(across), 1e-6));
   up *= min(1.0, longest / max(length(up), 1e-6));
-  vec3 albedo = filtered_color(place, across, up, wide, fine);
-  float open = clamp(0.9 + 0.012 * (fine.x - hollow.x), 0.4, 1.0);
-  return shaded(albedo, normal, open, sunlit, light);
+  float rise = fine.x - hollow.x;
+  vec3 albedo = filtered_color(place, across, up, wide, fine, rise);
+  Lit lit = Lit(albedo, normal, clamp(0.9 + 0.012 * rise, 0.4, 1.0), sunlit);
+#if HAS_WOODS
+  lit = with_trees(lit, place, wide, ray.direction, light.direction, pixel);
+#endif
+  return shaded(lit.albedo, lit.normal, lit.open, lit.sunlit, light);
 }
 
 // Clouds over what is behind them; nothing where the layer is not met.
@@ -72,10 +78,10 @@ vec3 with_clouds(vec3 behind, LandRay ray, AirRay air, float reach, Light light,
   Light above = light_at(light.direction, CLOUDS_HEIGHT + 0.5 * CLOUDS_THICKNESS);
   vec3 on_ground = light.sky + max(light.direction.z, 0.0) * light.sun;
   vec3 around = (light.sky + AIR.ground_albedo * on_ground) / 6.2832;
-  CloudLight clouds = clouds_seen(
+  CloudLight clouds = clouds_met(
       landscape_clouds(), AIR, wind_place(ray.place, time), air, ray.direction, light.direction,
-      min(reach, span.begin + 12.0 * CLOUDS_THICKNESS), above.sun, around, start, CloudSteps(CLOUD_STEPS,
-                                                                         CLOUD_LIGHT_STEPS));
+      min(reach, span.begin + 12.0 * CLOUDS_THICKNESS), above.sun, around, start,
+      CloudSteps(CLOUD_STEPS, CLOUD_LIGHT_STEPS));
   if (clouds.transmittance > 0.999) return behind;
   AirLight before = air_between(air, span.begin, max(ATMOS_STEPS / 2, 2));
   float far = smoothstep(0.6, 1.0, span.begin / MAX_CLOUD_DISTANCE);

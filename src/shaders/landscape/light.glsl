@@ -37,6 +37,11 @@ vec3 night_sky() {
 Light light_at(vec3 sun, float height) {
   vec3 direct = SUN_ILLUMINANCE * sun_transmittance(AIR, max(height, 0.0), sun.z, 8);
   vec3 sky = SUN_ILLUMINANCE * sky_on_ground(sun.z) + 3.1416 * night_sky();
+#if CLOUD_STEPS > 0
+  // Clouds hide a part of the blue and send down white light.
+  vec3 white = 0.45 * (max(sun.z, 0.0) * direct + sky);
+  sky = mix(sky, white, 0.8 * CLOUD_COVERAGE);
+#endif
   return Light(sun, direct, sky);
 }
 
