@@ -9,6 +9,7 @@ namespace {
 
 constexpr double cell_size = 3;  // m
 constexpr int most_cells = 1024;
+constexpr double wide = 12;  // m, reach of the mean over what stands around, to each side
 
 /// The crown of a model, in its own metres.
 struct Crown {
@@ -82,6 +83,30 @@ void add_crown(Cells& cells, const Crown& crown, const ModelInstance& plant) {
     }
 }
 
+/// Means over boxes of `reach` cells to each side, along rows or columns.
+std::vector<float> box_means(const std::vector<float>& values, int width, int height, int reach,
+                             bool rows) {
+  std::vector<float> out(values.size());
+  const int length = rows ? width : height;
+  const auto at = [&](int line, int k) {
+    return rows ? static_cast<std::size_t>(line) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(k)
+                : static_cast<std::size_t>(k) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(line);
+  };
+  for (int line = 0; line < (rows ? height : width); ++line) {
+    double sum = 0;
+    for (int k = -reach; k < length; ++k) {
+      if (k + reach < length) sum += static_cast<double>(values[at(line, k + reach)]);
+      if (k - reach > 0) sum -= static_cast<double>(values[at(line, k - reach - 1)]);
+      if (k < 0) continue;
+      const int count = std::min(k + reach, length - 1) - std::max(k - reach, 0) + 1;
+      out[at(line, k)] = static_cast<float>(std::max(sum, 0.0) / count);
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 CanopyShade canopy_shade(const World& world, float least_height) {
@@ -107,9 +132,13 @@ CanopyShade canopy_shade(const World& world, float least_height) {
   shade.width = cells.width;
   shade.height = cells.height;
   shade.texels.reserve(4 * count);
+  const int reach = std::max(1, static_cast<int>(std::lround(wide / cells.cell)));
+  const std::vector<float> around =
+      box_means(box_means(cells.area, cells.width, cells.height, reach, true), cells.width,
+                cells.height, reach, false);
   const auto cell_area = static_cast<float>(cells.cell * cells.cell);
   for (std::size_t k = 0; k < count; ++k) {
-    for (const float sum : {cells.area[k], cells.foot[k], cells.top[k], 0.0F})
+    for (const float sum : {cells.area[k], cells.foot[k], cells.top[k], around[k]})
       shade.texels.push_back(sum / cell_area);
   }
   const DVec2 scale = 1.0 / (cells.cell * DVec2(cells.width, cells.height));

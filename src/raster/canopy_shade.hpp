@@ -5,7 +5,9 @@
 // A crown of leaf area A (one side, m²) over a disc of radius r adds A / (π r²) to the leaf area
 // index L of the ground under it. What of an even sky passes a canopy of index L is exp(-k L), with
 // k = 0.5 for leaves that lie every way (Monsi, Saeki 1953): the shader's share for places below
-// the crowns' foot, and a smaller part of L within them.
+// the crowns' foot, and a smaller part of L within them. Half of an even sky's light on the level
+// comes from within 45 degrees of the zenith, through the crowns overhead; the rest, and the light
+// of a low sun, through those that stand around: for these L is averaged over a square of 25 m.
 
 #include <span>
 #include <vector>
@@ -18,7 +20,7 @@ struct CanopyShade {
   int width = 0;
   int height = 0;
   /// Four for each: L, and L times the height of the foot and of the top (m), so that what is
-  /// looked up between two of them is right; 0.
+  /// looked up between two of them is right; L as the mean over what stands around.
   std::vector<float> texels;
   Vec4 place{0};  ///< texture coordinate = zw + xy · place; all 0: no crowns
 };

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int cells_across = 20;    // along the longest side
 constexpr float projection = 0.5F;  // G
-constexpr float clumping = 0.6F;    // Ω, of crowns between 0.5 and 0.7
+constexpr float clumping = 0.9F;    // Ω, within cells; that of crowns and branches they have
 constexpr int directions = 32;
 
 /// Even over the sphere (a Fibonacci lattice).

@@ -5,7 +5,6 @@
 
 const float light_pi = 3.14159265;
 
-uniform vec3 sun_direction;   // unit, towards the sun
 uniform vec3 sun_irradiance;  // lx, of a surface at right angles to it
 uniform sampler2D sky_table;  // cd/m²
 uniform vec3 sky_harmonics[9];  // of the irradiance, lx

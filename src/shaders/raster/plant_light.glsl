@@ -23,8 +23,14 @@ float crown_sun_share(vec3 place, vec3 normal, vec4 crown_light, float far_share
   return mix(near, far, far_share);
 }
 
+// Part of the sky past land and crowns around.
+float past_others(vec3 place) {
+  return exp(-0.5 * canopy_above(place).y) * terrain_sky_share(place);
+}
+
 vec3 crown_ambient(vec3 place, vec3 normal, vec4 crown_light, vec3 albedo) {
-  float seen = min(let_through_about(crown_light, normal), sky_share(place, normal));
+  // Its own crown hides what it does; others hide what they do from their middle on.
+  float seen = let_through_about(crown_light, normal) * past_others(place);
   // What leaves around hide, they also scatter on: J. Jimenez et al., "Practical real-time
   // strategies for accurate indirect occlusion", 2016.
   return open_irradiance(normal) * seen / (1.0 - albedo * (1.0 - seen));
@@ -38,24 +44,37 @@ vec2 spread_cosines(float cosine) {
   return vec2((light_pi - angle) * cosine + s, s - angle * cosine) * (2.0 / (3.0 * light_pi));
 }
 
-// What the waxy coat of leaves mirrors, over what is below it (render/bsdf.hpp; the sky's part by its
-// irradiance about the mirrored direction). Of leaves that look everywhere, the mean: 0.086 of the
-// sky, and of the sun F / (4 π) from those that lie right for it.
-vec3 crown_coated(vec3 below, vec3 normal, float spread, vec3 to_eye, float roughness, vec3 sky_seen,
-                  vec3 sun_seen) {
+float coat_fresnel(float cosine) {
+  return 0.04 + 0.96 * pow(1.0 - clamp(cosine, 0.0, 1.0), 5.0);
+}
+// Its mean by cosine over a hemisphere.
+const float coat_mean = 0.0857;
+
+// Of an even sky, what a rough coat mirrors: less than a smooth one at grazing angles, where the
+// slopes that are seen look towards the eye. A fit by B. Karis, "Physically based shading on
+// mobile", 2014.
+float coat_mirrored(float cosine, float roughness) {
+  vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+  float a = min(r.x * r.x, exp2(-9.28 * cosine)) * r.x + r.y;
+  return max(0.04 * (r.z - 1.04 * a) + 1.04 * a + r.w, 0.0);
+}
+
+// What the waxy coat of leaves mirrors (render/bsdf.hpp; the sky's part by its irradiance about the
+// mirrored direction). Of leaves that look everywhere, the mean: of the sky about as at 60 degrees,
+// and of the sun F / (4 π) from those that lie right for it.
+vec3 crown_coat(vec3 normal, float spread, vec3 to_eye, float roughness, vec3 sky_seen,
+                vec3 sun_seen) {
   float facing = max(dot(normal, to_eye), 0.05);
-  float mirrored = mix(0.04 + 0.96 * pow(1.0 - facing, 5.0), 0.086, spread);
-  vec3 light = below * (1.0 - mirrored) + sky_seen * (mirrored / light_pi);
+  vec3 light = sky_seen * (coat_mirrored(mix(facing, 0.5, spread), roughness) / light_pi);
   vec3 half_way = normalize(to_eye + sun_direction);
   float a2 = pow(roughness, 4.0);
   float cosine = max(dot(normal, half_way), 0.0);
   float d = cosine * cosine * (a2 - 1.0) + 1.0;
   float across = max(dot(to_eye, half_way), 0.1);
-  float fresnel = 0.04 + 0.96 * pow(1.0 - across, 5.0);
   // Visibility after C. Kelemen, L. Szirmay-Kalos, Eurographics 2001.
   float lobe = a2 / (light_pi * d * d) / (4.0 * across * across) *
                max(dot(normal, sun_direction), 0.0);
-  return light + sun_seen * fresnel * mix(lobe, 0.25 / light_pi, spread);
+  return light + sun_seen * coat_fresnel(across) * mix(lobe, 0.18 / light_pi, spread);
 }
 
 // `normal` looks towards the eye; `spread`: 0 where all that is seen has it, 1 where it is but the
@@ -74,10 +93,16 @@ vec3 crown_radiance(vec3 place, vec3 normal, float spread, vec3 reflectance, vec
   vec3 sun = vec3(0.0);
   if (scattered.g > 0.0)
     sun = sun_irradiance * crown_sun_share(place, normal, crown_light, far_share);
+  vec3 to_eye = normalize(eye - place);
+  if (roughness > 0.0) {
+    // What the coat lets in, and out again.
+    light *= 1.0 - coat_mean;
+    scattered *= 1.0 - mix(coat_fresnel(abs(facing)), coat_mean, spread);
+  }
   light = (light + scattered * sun) / light_pi;
   if (roughness <= 0.0) return light;
-  vec3 to_eye = normalize(eye - place);
+  light *= 1.0 - mix(coat_fresnel(dot(normal, to_eye)), coat_mean, spread);
   vec3 mirrored = reflect(-to_eye, normal);
   vec3 sky_seen = crown_ambient(place, mirrored, crown_light, vec3(0.0));
-  return crown_coated(light, normal, spread, to_eye, roughness, sky_seen, sun);
+  return light + crown_coat(normal, spread, to_eye, roughness, sky_seen, sun);
 }

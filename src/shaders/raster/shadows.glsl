@@ -4,6 +4,8 @@
 
 const int cascades = 4;
 
+uniform vec3 sun_direction;   // unit, towards the sun
+
 uniform int shadow_count;                // of cascades; 0: no shadow maps
 uniform sampler2D shadow_atlas;          // depth, nearest to the sun 1; two by two cascades
 uniform mat4 shadow_matrices[cascades];  // world to x, y in [-1, 1] and depth in [0, 1]
@@ -12,7 +14,8 @@ uniform float shadow_blur;               // radius, in [-1, 1] of a cascade
 uniform float shadow_turn;               // radians, another for each frame
 uniform vec2 depth_range;                // depth = x + y · depth as stored
 
-uniform sampler2D canopy_map;  // leaf area per m² of ground, and that times its foot and top, m
+// Leaf area per m² of ground, that times its foot and top (m), and its mean around.
+uniform sampler2D canopy_map;
 uniform vec4 canopy_place;     // texture = zw + xy · place; all 0: no crowns
 
 // J. Jimenez, "Next generation post processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014.
@@ -40,7 +43,32 @@ float cascade_share(int cascade, vec3 at) {
   return sum / float(taps);
 }
 
-// Part of the sun that is seen past what the shadow maps hold: all of it beyond them.
+// Leaf area per m² of ground of crowns overhead and, as a mean, around, above a height.
+vec2 canopy_above(vec3 place) {
+  if (canopy_place.x == 0.0) return vec2(0.0);
+  vec2 at = canopy_place.zw + canopy_place.xy * place.xy;
+  if (any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0)))) return vec2(0.0);
+  vec4 crowns = texture(canopy_map, at);
+  if (crowns.x <= 0.0) return vec2(0.0, crowns.w);
+  float foot = crowns.y / crowns.x;
+  float top = crowns.z / crowns.x;
+  float above = clamp((top - place.z) / max(top - foot, 0.5), 0.0, 1.0);
+  return above * crowns.xw;
+}
+
+// Part of the sky that crowns above let through.
+float under_canopy(vec3 place) {
+  vec2 leaves = canopy_above(place);
+  return exp(-0.5 * leaves.x) * 0.5 + 0.5 * exp(-0.7 * leaves.y);
+}
+
+// Part of the sun that crowns around let through, on the mean: where there are no shadow maps.
+float sun_through_canopy(vec3 place) {
+  float leaves = canopy_above(place).y;
+  return leaves > 0.0 ? exp(-0.5 * leaves / max(sun_direction.z, 0.1)) : 1.0;
+}
+
+// Part of the sun that is seen past what the shadow maps hold: beyond them, past crowns.
 float mapped_sun_share(vec3 place, vec3 normal) {
   for (int k = 0; k < shadow_count; ++k) {
     // Off the surface by more than what a texel hides.
@@ -50,22 +78,10 @@ float mapped_sun_share(vec3 place, vec3 normal) {
     if (edge > 0.97 || at.z < 0.0 || at.z > 1.0) continue;
     float share = cascade_share(k, at);
     if (k + 1 < shadow_count) return share;
-    return mix(share, 1.0, smoothstep(0.8, 0.97, edge));
+    float beyond = smoothstep(0.8, 0.97, edge);
+    return beyond > 0.0 ? mix(share, sun_through_canopy(place), beyond) : share;
   }
-  return 1.0;
-}
-
-// Part of the sky that crowns above let through.
-float under_canopy(vec3 place) {
-  if (canopy_place.x == 0.0) return 1.0;
-  vec2 at = canopy_place.zw + canopy_place.xy * place.xy;
-  if (any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0)))) return 1.0;
-  vec3 crowns = texture(canopy_map, at).xyz;
-  if (crowns.x <= 0.0) return 1.0;
-  float foot = crowns.y / crowns.x;
-  float top = crowns.z / crowns.x;
-  float above = clamp((top - place.z) / max(top - foot, 0.5), 0.0, 1.0);
-  return exp(-0.5 * crowns.x * above);
+  return sun_through_canopy(place);
 }
 
 float sun_share(vec3 place, vec3 normal) {
