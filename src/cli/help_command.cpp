@@ -15,6 +15,8 @@
 #include "image/atomic_file.hpp"
 #include "realtime/landscape_settings.hpp"
 #include "scene/scene.hpp"
+#include "view/camera_path.hpp"
+#include "view/controls.hpp"
 
 namespace wold {
 
@@ -55,6 +57,12 @@ void explain(const CLI::App& app, const std::string& topic) {
     known.push_back(command->get_name());
     if (command->get_name() != topic) continue;
     write_output(command->help());
+    if (topic == "view") write_output("\n" + controls_help());
+    if (topic == "shader") {
+      const LandscapeSettings knobs;
+      write_output("\n");
+      print_set(describe(knobs), &knobs);
+    }
     found = true;
   }
   for (const SceneSection& section : scene_sections()) {
@@ -91,6 +99,13 @@ std::string operator_page(const TerrainOperator& op, bool has_picture) {
              op.name());
 }
 
+/// Controls of the window, and what a camera path may say.
+std::string view_page() {
+  return "# wold view\n\nWritten by `wold help --write-reference`.\n\n## Controls\n" +
+         controls_markdown() + "\n## Keys of a camera path, `[[key]]`\n\n#" +
+         camera_key_reference();
+}
+
 /// Markdown pages, one per operator and one of all sections, and the JSON Schema, into a folder.
 void write_reference(const std::string& folder) {
   std::string sections =
@@ -102,7 +117,8 @@ void write_reference(const std::string& folder) {
   std::string index =
       "# Reference\n\nWritten by `wold help --write-reference`.\n\n- [Sections of a scene "
       "file](scene.md)\n- [JSON Schema](scene.schema.json)\n- [Knobs of `wold "
-      "shader`](shader.md)\n\nOperators of `[[terrain.step]]`:\n\n";
+      "shader`](shader.md)\n- [Controls and camera paths of `wold view`](view.md)\n\nOperators of "
+      "`[[terrain.step]]`:\n\n";
   std::set<std::string> eroding;
   for (const TerrainOperator& op : erosion_operators()) eroding.insert(op.name());
   for (const TerrainOperator& op : scene_operators()) {
@@ -113,6 +129,7 @@ void write_reference(const std::string& folder) {
   write_file(folder + "/scene.md", sections);
   const LandscapeSettings knobs;
   write_file(folder + "/shader.md", reference_markdown(describe(knobs), &knobs));
+  write_file(folder + "/view.md", view_page());
   write_file(folder + "/README.md", index);
   write_file(folder + "/scene.schema.json", scene_schema());
 }

@@ -136,9 +136,9 @@ std::string list_toml(const DVec3& v) {
 
 }  // namespace
 
-const ParameterSet& camera_key_parameters() {
-  static const ParameterSet set = describe(KeyTable{});
-  return set;
+std::string camera_key_reference() {
+  const KeyTable key;
+  return reference_markdown(describe(key), &key);
 }
 
 CameraPath parse_camera_path(const std::string& text, const std::string& source) {

@@ -43,8 +43,8 @@ struct CameraKey {
   friend bool operator==(const CameraKey&, const CameraKey&) = default;
 };
 
-/// What a key is in a file.
-const ParameterSet& camera_key_parameters();
+/// What a key is in a file, as a section of a Markdown page.
+std::string camera_key_reference();
 
 struct CameraPath {
   std::vector<CameraKey> keys;  ///< by time, at least one

@@ -22,7 +22,7 @@ SkySettings sky_of(const SkySettings& scene, const PathView& view) {
   if (view.sun) sky.sun = {view.sun->x, view.sun->y};
   if (view.hour && !view.sun) {
     sky.sun.clear();
-    sky.time = with_hour(sky.time, *view.hour);
+    sky.time = with_hour(sky.time, *view.hour - 24 * std::floor(*view.hour / 24));
   }
   return sky;
 }

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "scene/build.hpp"
+#include "scene/same_scene.hpp"
 #include "view/parameter_widgets.hpp"
 
 namespace wold {
@@ -20,6 +21,9 @@ constexpr float exposure_step = 0.25F;     // stops
 constexpr double hours_per_second = 0.75;  // of a held key
 constexpr double animated_hours = 0.1;     // per second
 constexpr int test_ray_count = 12;
+// Other land than before is seen in few samples first, if it has more than this.
+constexpr int most_preview_samples = 400;
+constexpr int preview_samples = 257;
 
 /// Pixels of a picture with a longer side of `longest`, with the proportions of a window.
 IVec2 scaled_size(int width, int height, int longest) {
@@ -62,6 +66,8 @@ Viewer::Viewer(ViewerSettings settings, ViewedScene scene, Progress& progress)
     : settings_(std::move(settings)), world_(std::move(scene.world)) {
   note_file_times();
   drawing_ = std::make_unique<SceneDrawing>(*world_, settings_.detail, progress);
+  edited_ = world_->scene();
+  readings_ = 1;
   take_over();
   place(scene.camera);
 }
@@ -74,7 +80,6 @@ void Viewer::use(std::shared_ptr<PlantedWorld> world) {
 }
 
 void Viewer::take_over() {
-  edited_ = world_->scene();
   cameras_.clear();
   for (const CameraSettings& camera : world_->scene().cameras)
     if (is_placed(camera)) cameras_.push_back(placed_camera(world_->world().ground, camera));
@@ -104,8 +109,21 @@ void Viewer::resize(int width, int height) {
   if (width > 0 && height > 0) drawing_->resize(width, height);
 }
 
-void Viewer::load(Scene scene) {
+void Viewer::load(Scene scene, bool from_file) {
   error_.clear();
+  loading_from_file_ = from_file;
+  to_refine_.reset();
+  const bool slow =
+      scene.terrain.resolution > most_preview_samples && !same_land(world_->scene(), scene);
+  if (slow) {
+    to_refine_ = scene;
+    scene.terrain.resolution = preview_samples;
+    scene.surroundings.resolution = std::min(scene.surroundings.resolution, preview_samples / 2);
+  }
+  begin_building(std::move(scene));
+}
+
+void Viewer::begin_building(Scene scene) {
   loading_.begin([scene = std::move(scene), before = world_](Progress& progress) mutable {
     return std::make_shared<PlantedWorld>(std::move(scene), progress, before.get());
   });
@@ -117,7 +135,7 @@ void Viewer::reload() {
   try {
     Scene scene = read_scene(settings_.scene, settings_.overrides);
     check_scene(scene);
-    load(std::move(scene));
+    load(std::move(scene), true);
   } catch (const Error& error) {
     error_ = error.location().known() ? error.location().text() + ": " + error.message()
                                       : error.message();
@@ -139,7 +157,7 @@ void Viewer::edited(Change change) {
   }
   try {
     check_scene(edited_);
-    load(edited_);
+    load(edited_, false);
   } catch (const Error& error) {
     error_ = error.message();
   }
@@ -149,11 +167,18 @@ void Viewer::take_loaded() {
   std::optional<BackgroundJob<std::shared_ptr<PlantedWorld>>::Outcome> outcome = loading_.take();
   if (!outcome) return;
   if (const auto* error = std::get_if<Error>(&*outcome)) {
+    to_refine_.reset();
     if (error->kind() != ErrorKind::cancelled) error_ = error->message();
     return;
   }
   try {
     use(std::get<0>(std::move(*outcome)));
+    if (loading_from_file_) {
+      edited_ = to_refine_ ? *to_refine_ : world_->scene();
+      loading_from_file_ = false;
+      ++readings_;
+    }
+    if (to_refine_) begin_building(*std::exchange(to_refine_, std::nullopt));
   } catch (const Error& error) {
     error_ = error.message();
   }

@@ -107,8 +107,10 @@ class Viewer {
   /// Text that the user wants in the clipboard, once.
   std::optional<std::string> take_clipboard();
 
-  /// Scenes loaded so far.
+  /// Scenes built so far.
   int generation() const { return generation_; }
+  /// Scenes read from the file so far: what `edit()` holds is another one after each.
+  int readings() const { return readings_; }
 
  private:
   void obey(const Controls& controls);
@@ -116,7 +118,9 @@ class Viewer {
   void take_rays();
   void watch_files();
   void reload();
-  void load(Scene scene);
+  /// Builds a scene in the background; other land at first in few samples, to be seen soon.
+  void load(Scene scene, bool from_file);
+  void begin_building(Scene scene);
   void use(std::shared_ptr<PlantedWorld> world);
   void take_over();
   void note_file_times();
@@ -130,6 +134,8 @@ class Viewer {
   Pilot pilot_;
   std::vector<Camera> cameras_;
   BackgroundJob<std::shared_ptr<PlantedWorld>> loading_;
+  std::optional<Scene> to_refine_;  // what is built once its preview is there
+  bool loading_from_file_ = false;
   TracedView traced_;
   BackgroundJob<TestRays> tracing_rays_;
   TestRays rays_;
@@ -149,6 +155,7 @@ class Viewer {
   std::vector<ViewerNotice> notices_;
   std::optional<std::string> clipboard_;
   int generation_ = 0;
+  int readings_ = 0;
 };
 
 }  // namespace wold

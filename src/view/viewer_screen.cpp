@@ -45,6 +45,13 @@ void ViewerScreen::obey(const Controls& controls) {
   }
 }
 
+bool ViewerScreen::close_open() {
+  const bool any = help_shown_ || viewer_.traced().open();
+  help_shown_ = false;
+  viewer_.traced().close();
+  return any;
+}
+
 void ViewerScreen::apply(const std::vector<ParameterChange>& changes) {
   for (const ParameterChange& change : changes) {
     const Viewer::Change what = change_of(cost_of(change.section));
@@ -54,10 +61,10 @@ void ViewerScreen::apply(const std::vector<ParameterChange>& changes) {
 }
 
 void ViewerScreen::draw_panel() {
-  if (sections_of_ != viewer_.generation()) {
+  if (sections_of_ != viewer_.readings()) {
     sections_ = panel_sections(viewer_.edit());
     panel_.forget();
-    sections_of_ = viewer_.generation();
+    sections_of_ = viewer_.readings();
   }
   if (panel_shown_) apply(panel_.draw(sections_, viewer_.title()));
 }

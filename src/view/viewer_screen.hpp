@@ -22,6 +22,8 @@ class ViewerScreen {
   /// A size of nothing draws nothing.
   void frame(const Controls& controls, IVec2 size, unsigned target = 0);
 
+  /// Closes what lies over the picture besides the panel; false if nothing did.
+  bool close_open();
   void show_panel(bool shown) { panel_shown_ = shown; }
   void show_help(bool shown) { help_shown_ = shown; }
   Messages& messages() { return messages_; }
@@ -40,7 +42,7 @@ class ViewerScreen {
   Interface& interface_;
   ParameterPanel panel_;
   std::vector<PanelSection> sections_;
-  int sections_of_ = 0;  // the generation that sections_ point into
+  int sections_of_ = 0;  // the reading that sections_ point into
   TracedPanel traced_;
   Messages messages_;
   bool panel_shown_ = true;

@@ -99,7 +99,7 @@ class WindowLoop {
 
   void obey(const Controls& controls, Viewer& viewer, ViewerScreen& screen) {
     const auto pressed = [&](Action action) { return controls.pressed.has(action); };
-    if (pressed(Action::quit)) window_.close();
+    if (pressed(Action::quit) && !screen.close_open()) window_.close();
     if (pressed(Action::full_screen)) window_.toggle_full_screen();
     if (const auto text = viewer.take_clipboard()) window_.set_clipboard(*text);
     try {

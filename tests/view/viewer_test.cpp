@@ -167,6 +167,18 @@ TEST_F(ViewerTest, LightChangesAtOnceAndLandInTheBackground) {
   EXPECT_NEAR(viewer_->world()->world().ground.base({0, 0}).height, 2 * before, 1e-2F);
 }
 
+TEST_F(ViewerTest, LandOfManySamplesIsSeenInFewFirstAndEditsGoOn) {
+  viewer_->edit().terrain.resolution = 513;
+  viewer_->edited(Viewer::Change::everything);
+  ASSERT_TRUE(wait_until([&] { return viewer_->generation() == 2; }));
+  EXPECT_EQ(viewer_->scene().terrain.resolution, 257);
+  EXPECT_EQ(viewer_->edited_scene().terrain.resolution, 513);
+  EXPECT_TRUE(viewer_->loading());
+  ASSERT_TRUE(wait_until([&] { return viewer_->generation() == 3; }));
+  EXPECT_EQ(viewer_->scene().terrain.resolution, 513);
+  EXPECT_EQ(viewer_->readings(), 1);
+}
+
 TEST_F(ViewerTest, AnEditThatIsNotAllowedIsAnError) {
   viewer_->edit().sky.sun = {100, 0};
   viewer_->edited(Viewer::Change::light);
