@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/parallel.hpp"
 #include "gpu/context.hpp"
 #include "raster/plant_drawing.hpp"
 
@@ -78,45 +79,25 @@ Tile halved(Tile& fine) {
   return t;
 }
 
-float mean_coverage(const Tile& t) {
-  double sum = 0;
-  for (const auto& texel : t.texels) sum += static_cast<double>(texel[3]);
-  return static_cast<float>(sum / static_cast<double>(t.texels.size()));
-}
-
-/// The factor of coverage with which as large a part of the texels is above one half as `part`.
-float coverage_scale(const Tile& t, float part) {
-  std::vector<float> list;
-  for (const auto& texel : t.texels) list.push_back(texel[3]);
-  std::sort(list.begin(), list.end(), std::greater<>());
-  const auto n = static_cast<std::size_t>(std::clamp(part * static_cast<float>(list.size()), 0.0F,
-                                                     static_cast<float>(list.size() - 1)));
-  return list[n] > 1e-3F ? std::clamp(0.5F / list[n], 0.25F, 4.0F) : 4.0F;
-}
-
 /// The texels of a level of all tiles, as bytes of the three textures.
 struct Sheet {
   int size = 0;
   std::array<std::vector<std::uint8_t>, 3> bytes;
 };
 
-void put_tile(Sheet& sheet, int k, Tile& tile, Tile* coarser, float scale) {
+void put_tile(Sheet& sheet, int k, const Tile& tile) {
   const int x0 = (k % tiles) * tile.size;
   const int y0 = (k / tiles) * tile.size;
   for (int y = 0; y < tile.size; ++y)
     for (int x = 0; x < tile.size; ++x) {
-      std::array<float, 12>& v = tile.at(x, y);
-      // What is bare has the colours of what is around, for filtering.
-      if (v[3] <= 0 && coarser != nullptr) {
-        const std::array<float, 12>& c = coarser->at(x / 2, y / 2);
-        for (std::size_t i = 0; i < 12; ++i)
-          v[i] = i == 3 ? 0 : c[i] / std::max(c[3], 1e-6F) * 1e-5F;
-      }
-      const float weight = v[3] > 0 ? v[3] : 1e-5F;
+      const std::array<float, 12>& v =
+          tile.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.size) +
+                      static_cast<std::size_t>(x)];
+      const float weight = std::max(v[3], 1e-6F);
       const auto at = 4 * (static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(sheet.size) +
                            static_cast<std::size_t>(x0 + x));
       for (std::size_t c = 0; c < 12; ++c) {
-        float value = c == 3 ? scale * v[3] : v[c] / weight;
+        float value = c == 3 ? v[3] : v[c] / weight;
         if (c < 3) value = std::sqrt(std::max(value, 0.0F));
         sheet.bytes[c / 4][at + c % 4] =
             static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0F, 1.0F)));
@@ -124,7 +105,8 @@ void put_tile(Sheet& sheet, int k, Tile& tile, Tile* coarser, float scale) {
     }
 }
 
-/// Bare texels of coarse levels first, so that finer ones can take theirs from them.
+/// What is bare has the colours of what is around, for filtering: coarse levels first, so that
+/// finer ones can take theirs from them.
 void fill_bare(std::vector<Tile>& chain) {
   for (std::size_t l = chain.size() - 1; l-- > 0;) {
     Tile& fine = chain[l];
@@ -203,7 +185,7 @@ void PlantCards::picture(int model, const CardShape& shape,
     s.size = (tiles * tile_size) >> l;
     for (auto& bytes : s.bytes) bytes.resize(4 * static_cast<std::size_t>(s.size) * s.size);
   }
-  for (int k = 0; k < tiles * tiles; ++k) {
+  parallel_for(0, tiles * tiles, [&](int k) {
     Tile full{drawn_size, {}};
     full.texels.resize(static_cast<std::size_t>(drawn_size) * drawn_size);
     for (int y = 0; y < drawn_size; ++y)
@@ -215,15 +197,11 @@ void PlantCards::picture(int model, const CardShape& shape,
         for (std::size_t c = 0; c < 12; ++c)
           full.at(x, y)[c] = c == 3 ? covered : covered * drawn[c / 4][at + c % 4];
       }
-    const float coverage = mean_coverage(full);
     std::vector<Tile> chain{halved(full)};
     while (chain.back().size > 1) chain.push_back(halved(chain.back()));
-    std::vector<float> scales;
-    for (const Tile& t : chain) scales.push_back(coverage_scale(t, coverage));
     fill_bare(chain);
-    for (std::size_t l = 0; l < mip_levels; ++l)
-      put_tile(sheets[l], k, chain[l], nullptr, scales[l]);
-  }
+    for (std::size_t l = 0; l < mip_levels; ++l) put_tile(sheets[l], k, chain[l]);
+  });
   for (int l = 0; l < mip_levels; ++l) {
     const Sheet& s = sheets[static_cast<std::size_t>(l)];
     albedo_.upload(std::span<const std::uint8_t>(s.bytes[0]), model, l);
@@ -249,6 +227,7 @@ void PlantCards::draw(int model, const DrawView& view, const SceneLight* light,
   program.set("card_transmission", shape.transmission);
   program.set("card_roughness", shape.roughness);
   program.set("card_layer", model);
+  program.set("card_frame", light != nullptr ? static_cast<float>(light->frame() % 1024) : 0.0F);
   program.set("crown_reach", shape.radius);
   const std::array<std::pair<const char*, const GpuTexture*>, 3> textures{
       {{"card_albedo", &albedo_}, {"card_normal", &normal_}, {"card_light", &light_}}};

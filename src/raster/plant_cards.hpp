@@ -5,9 +5,10 @@
 //
 // A picture has albedo and coverage, the normals of what is seen, which part is leaves, and the
 // light let through to it (plant_openness.hpp): so that it is lit as the mesh is, from anywhere.
-// Between directions pixels of one and the other are mixed, so that none is seen to turn. Smaller
-// versions keep the part that is covered: coverage is scaled so that as many texels pass the test
-// as are covered in the full picture (I. Castaño, "Computing alpha mipmaps", 2010).
+// Between directions pixels of one and the other are mixed, so that none is seen to turn. Coverage
+// is a part, and is drawn as the chance that a pixel is (hashed alpha testing: C. Wyman, M.
+// McGuire, I3D 2017), another one each frame: the mean over frames (PictureDrawing) has crowns as
+// fine and as thin as they are at any distance.
 
 #include <functional>
 #include <vector>

@@ -186,7 +186,7 @@ void PlantDrawing::make_cards(const World& world, Progress& progress) {
     if (!sizes_[k].card) continue;
     // As many leaves as show.
     const float share =
-        std::min(1.0F, 60000.0F / static_cast<float>(levels_[k].coarse.front().index_count));
+        std::min(1.0F, 40000.0F / static_cast<float>(levels_[k].coarse.front().index_count));
     DrawnPlant plant;
     plant.share = share;
     plant.texture = Vec2(0.5F);  // without a tint

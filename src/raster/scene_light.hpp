@@ -32,6 +32,7 @@ class SceneLight {
   TerrainShade& terrain_shade() { return terrain_shade_; }
   /// Turns the samples of shadows; another number for each frame.
   void set_frame(int frame) { frame_ = frame; }
+  int frame() const { return frame_; }
 
   /// Sets the uniforms and textures of "raster/light.glsl" of a program that includes it.
   void apply(const GpuProgram& program) const;

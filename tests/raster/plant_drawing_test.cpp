@@ -216,7 +216,7 @@ TEST_P(PlantPictureOf, WithFewerLeavesAndOnACardLooksAsInFull) {
     EXPECT_GT(psnr(full, fewer), 24) << leaves;
   }
   // And on a card as its mesh.
-  for (const float turn : {0.0F, 0.35F}) {
+  for (const float turn : {0.0F, 0.35F, 2.0F}) {
     Camera far = camera_at(200, 12);
     far.position = Vec3(200 * std::sin(turn), -200 * std::cos(turn), 6);
     far.direction = Vec3(-std::sin(turn), std::cos(turn), 0);
@@ -225,9 +225,9 @@ TEST_P(PlantPictureOf, WithFewerLeavesAndOnACardLooksAsInFull) {
     plants.set_detail({.card_height = 2000});
     const Drawn card = drawn(plants, light, far, 1);
     ASSERT_EQ(plants.choice().triangles, 2U);
-    EXPECT_NEAR(card.coverage, mesh.coverage, 0.12 * mesh.coverage) << turn;
+    EXPECT_NEAR(card.coverage, mesh.coverage, 0.08 * mesh.coverage) << turn;
     for (int c = 0; c < 3; ++c)
-      EXPECT_NEAR(card.color[c], mesh.color[c], 0.18 * mesh.color[c]) << turn;
+      EXPECT_NEAR(card.color[c], mesh.color[c], 0.16 * mesh.color[c]) << turn;
   }
 }
 

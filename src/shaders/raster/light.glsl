@@ -16,11 +16,12 @@ vec3 sky_radiance(vec3 direction) {
 
 // Irradiance by sky and ground around of a surface that looks towards n and sees all of them: R.
 // Ramamoorthi, P. Hanrahan, "An efficient representation for irradiance environment maps", SIGGRAPH
-// 2001. The constants of the bands are in the coefficients.
+// 2001. The constants of the bands are in the coefficients. For a mean of normals, shorter than 1,
+// about the mean of their irradiances.
 vec3 open_irradiance(vec3 n) {
   vec3 e = sky_harmonics[0] + sky_harmonics[1] * n.y + sky_harmonics[2] * n.z + sky_harmonics[3] * n.x +
            sky_harmonics[4] * (n.x * n.y) + sky_harmonics[5] * (n.y * n.z) +
-           sky_harmonics[6] * (3.0 * n.z * n.z - 1.0) + sky_harmonics[7] * (n.x * n.z) +
+           sky_harmonics[6] * (3.0 * n.z * n.z - dot(n, n)) + sky_harmonics[7] * (n.x * n.z) +
            sky_harmonics[8] * (n.x * n.x - n.y * n.y);
   return max(e, vec3(0.0));
 }

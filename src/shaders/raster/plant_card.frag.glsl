@@ -24,19 +24,28 @@ layout(location = 0) out vec4 color;
 
 const vec2 card_elevations = vec2(0.08, 0.75);
 
-// One of a lattice of numbers, even over [0, 1): M. Roberts, "The unreasonable effectiveness of
-// quasirandom sequences", 2018.
-float scattered(vec2 pixel) {
-  return fract(dot(pixel, vec2(0.7548776662, 0.5698402910)));
+uniform float card_frame;  // another number for each frame
+
+// Even over [0, 1) among neighbours and over frames, another for each plant: noise after Jimenez,
+// 2014, moved on by the golden ratio.
+float card_noise(vec2 pixel, vec2 own, float step) {
+  vec2 at = pixel + floor(64.0 * own);
+  return fract(52.9829189 * fract(dot(at, vec2(0.06711056, 0.00583715))) + step * card_frame);
+}
+
+// A tall plant's picture is squeezed: the finer direction counts nearly alone, and the mean over
+// frames does the rest.
+float sharper(float longest, float own) {
+  return own > 0.0 ? clamp(longest / own, 0.3, 1.0) : 1.0;
 }
 
 void main() {
   vec2 pixel = floor(gl_FragCoord.xy);
-  float u = scattered(pixel + 61.0 * individual.zw);
-  if (scattered(pixel.yx + 17.0 * individual.wz) >= pictures.w) discard;
-  // A soft step: a picture is alone about its own direction.
-  float other = smoothstep(0.2, 0.8, pictures.y);
-  float row = fract(u * 7.31 + 0.37) < pictures.z ? 1.0 : 0.0;
+  if (card_noise(pixel.yx, individual.wz, 0.7548777) >= pictures.w) discard;
+  float u = card_noise(pixel + 17.0, individual.zw, 0.5698403);
+  // Soft steps: a picture is alone about its own direction, as two at once blur each other.
+  float other = smoothstep(0.35, 0.65, pictures.y);
+  float row = fract(u * 7.31 + 0.37) < smoothstep(0.3, 0.7, pictures.z) ? 1.0 : 0.0;
   float column = mod(pictures.x + (u < other ? 1.0 : 0.0), 8.0);
   float elevation = row > 0.0 ? card_elevations.y : card_elevations.x;
   float tall = 0.5 * (card_shape.z - card_shape.y) * cos(elevation) + card_shape.x * sin(elevation);
@@ -47,21 +56,23 @@ void main() {
   vec3 at = vec3(0.25 * (corner + clamp(uv, 0.0, 1.0)), float(card_layer));
   vec2 dx = 0.125 * dFdx(card_place) / size;
   vec2 dy = 0.125 * dFdy(card_place) / size;
+  float least = min(length(dx), length(dy));
+  dx *= sharper(1.5 * least, length(dx));
+  dy *= sharper(1.5 * least, length(dy));
   vec4 seen = textureGrad(card_albedo, at, dx, dy);
-  if (any(greaterThan(abs(uv - 0.5), vec2(0.5))) || seen.a < 0.5) discard;
+  if (any(greaterThan(abs(uv - 0.5), vec2(0.5)))) discard;
+  if (seen.a <= card_noise(pixel, individual.zw, 0.6180340)) discard;
 #ifndef DEPTH_ONLY
   vec4 facing = textureGrad(card_normal, at, dx, dy);
   vec4 let_in = textureGrad(card_light, at, dx, dy);
   vec3 mean = turned_by(turn, 2.0 * facing.xyz - 1.0);
-  float even = length(mean);
-  vec3 n = mean / max(even, 1e-3);
   // Of leaves that look everywhere the mean has length 2/3.
-  float spread = clamp(3.0 * (1.0 - even), 0.0, 1.0);
+  float spread = clamp(3.0 * (1.0 - length(mean)), 0.0, 1.0);
   vec4 crown_light = vec4(turned_by(turn, 4.0 * let_in.xyz - 2.0), let_in.w);
   vec3 reflectance = seen.rgb * seen.rgb * material_tint(individual.zw, card_shape.w);
   vec3 transmittance = reflectance * card_transmission * facing.a;
   color = vec4(
-      crown_radiance(place, n, spread, reflectance, transmittance, card_roughness * facing.a,
+      crown_radiance(place, mean, spread, reflectance, transmittance, card_roughness * facing.a,
                      crown_light, 1.0),
       1.0);
 #endif

@@ -77,19 +77,20 @@ vec3 crown_coat(vec3 normal, float spread, vec3 to_eye, float roughness, vec3 sk
   return light + sun_seen * coat_fresnel(across) * mix(lobe, 0.18 / light_pi, spread);
 }
 
-// `normal` looks towards the eye; `spread`: 0 where all that is seen has it, 1 where it is but the
-// mean of leaves that look everywhere.
-vec3 crown_radiance(vec3 place, vec3 normal, float spread, vec3 reflectance, vec3 transmittance,
-                    float roughness, vec4 crown_light, float far_share) {
+// `mean_normal` is the mean of the normals of what is seen, on the side of the eye: of unit length
+// where all has the same. `spread`: 0 there, 1 where leaves look everywhere.
+vec3 crown_radiance(vec3 place, vec3 mean_normal, float spread, vec3 reflectance,
+                    vec3 transmittance, float roughness, vec4 crown_light, float far_share) {
+  vec3 normal = mean_normal / max(length(mean_normal), 1e-3);
   float facing = dot(normal, sun_direction);
   vec2 cosines = vec2(max(facing, 0.0), max(-facing, 0.0));
   if (spread > 0.0)
     cosines = mix(cosines, spread_cosines(dot(normalize(eye - place), sun_direction)), spread);
   vec3 scattered = reflectance * cosines.x + transmittance * cosines.y;
   vec3 albedo = reflectance + transmittance;
-  vec3 light = reflectance * crown_ambient(place, normal, crown_light, albedo);
+  vec3 light = reflectance * crown_ambient(place, mean_normal, crown_light, albedo);
   if (transmittance.g > 0.0)
-    light += transmittance * crown_ambient(place, -normal, crown_light, albedo);
+    light += transmittance * crown_ambient(place, -mean_normal, crown_light, albedo);
   vec3 sun = vec3(0.0);
   if (scattered.g > 0.0)
     sun = sun_irradiance * crown_sun_share(place, normal, crown_light, far_share);
@@ -102,7 +103,10 @@ vec3 crown_radiance(vec3 place, vec3 normal, float spread, vec3 reflectance, vec
   light = (light + scattered * sun) / light_pi;
   if (roughness <= 0.0) return light;
   light *= 1.0 - mix(coat_fresnel(dot(normal, to_eye)), coat_mean, spread);
-  vec3 mirrored = reflect(-to_eye, normal);
+  // Far away one leaf is drawn for many, and must not glitter for all of them; they mirror all that
+  // is around.
+  float many = max(spread, far_share);
+  vec3 mirrored = reflect(-to_eye, normal) * (1.0 - many);
   vec3 sky_seen = crown_ambient(place, mirrored, crown_light, vec3(0.0));
-  return light + crown_coat(normal, spread, to_eye, roughness, sky_seen, sun);
+  return light + crown_coat(normal, many, to_eye, roughness, sky_seen, sun);
 }

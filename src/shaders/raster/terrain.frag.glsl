@@ -23,13 +23,12 @@ float smith_lambda(float cosine, float alpha) {
   return 0.5 * (sqrt(1.0 + alpha * alpha * (1.0 - c2) / c2) - 1.0);
 }
 
-// Metres that a pixel covers: between its width and its length, which parts at grazing angles.
+// Metres that a pixel covers: its width, as in the path tracer. Along grazing views it is longer, and
+// the mean over frames has what is finer than that; up to a point, for the sake of views that move.
 float pixel_footprint() {
-  vec2 across = dFdx(place);
-  vec2 along = dFdy(place);
-  float longest = max(length(across), length(along));
-  float area = abs(across.x * along.y - across.y * along.x);
-  return sqrt(max(area, 0.01 * longest * longest));
+  float longest = max(length(dFdx(place)), length(dFdy(place)));
+  float wide = pixel_angle * length(vec3(terrain_eye - place, eye.z - height));
+  return max(wide, 0.1 * longest);
 }
 
 // The sun's glint and the sky's reflection in a clear coat (render/bsdf.hpp), and what it leaves of
