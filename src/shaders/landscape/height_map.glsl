@@ -58,15 +58,11 @@ vec3 land(vec2 place, float spacing) {
   vec2 inside = (1.0 - back) * size;
   vec2 sense = mix(vec2(-1.0), vec2(1.0), lessThan(fract(turns), vec2(0.5)));
   float level = log2(max(spacing / MAP_CELL, 1e-3));
-  vec3 ground;
-  if (level < 0.0) {
-    ground = map_smooth(inside);
-  } else {
-    float most = floor(log2(max(size.x, size.y)));
-    float fine = min(floor(level), most - 1.0);
-    ground = mix(map_level(inside, int(fine)), map_level(inside, int(fine) + 1),
-                 clamp(level - fine, 0.0, 1.0));
-  }
+  float most = floor(log2(max(size.x, size.y)));
+  float fine = clamp(floor(level), 0.0, most - 1.0);
+  vec3 ground = fine == 0.0 ? map_smooth(inside) : map_level(inside, int(fine));
+  float coarser = clamp(level - fine, 0.0, 1.0);
+  if (coarser > 0.0) ground = mix(ground, map_level(inside, int(fine) + 1), coarser);
   ground.yz *= sense / MAP_CELL;
   if (spacing < MAP_CELL) {
     float steep = smoothstep(0.25, 0.9, length(ground.yz));
