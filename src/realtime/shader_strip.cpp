@@ -14,29 +14,62 @@ bool is_word(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
+/// A name, and with how many arguments it is called or defined: functions of the same name differ
+/// in that. Without, for what is no function.
+using Use = std::pair<std::string, int>;
+constexpr int no_call = -1;
+
 /// A stretch of text at the top level: comments above included.
 struct Piece {
   std::string text;
-  std::string name;  ///< what it defines; empty: always kept
-  std::set<std::string> uses;
+  Use defines = {"", no_call};  ///< no name: always kept
+  std::set<Use> uses = {};
 };
 
-/// The names in a text, comments left out.
-std::set<std::string> names_in(std::string_view text) {
-  std::set<std::string> names;
-  for (std::size_t k = 0; k < text.size();) {
-    if (text.substr(k, 2) == "//") {
-      k = std::min(text.find('\n', k), text.size());
-    } else if (is_word(text[k])) {
-      std::size_t end = k;
-      while (end < text.size() && is_word(text[end])) ++end;
-      names.emplace(text.substr(k, end - k));
-      k = end;
-    } else {
-      ++k;
-    }
+std::string without_comments(std::string_view text) {
+  std::string out;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    if (text.substr(k, 2) == "//") k = std::min(text.find('\n', k), text.size() - 1);
+    out += text[k];
   }
-  return names;
+  return out;
+}
+
+/// Arguments of the call whose bracket opens at `open`.
+int arguments_at(std::string_view code, std::size_t open) {
+  int depth = 0;
+  int commas = 0;
+  bool empty = true;
+  for (std::size_t k = open; k < code.size(); ++k) {
+    const char c = code[k];
+    if (c == '(' || c == '[') ++depth;
+    if (c == ')' || c == ']') --depth;
+    if (depth == 0) break;
+    if (c == ',' && depth == 1) ++commas;
+    if (k > open && std::isspace(static_cast<unsigned char>(c)) == 0) empty = false;
+  }
+  return empty ? 0 : commas + 1;
+}
+
+/// The names in a text, comments left out. What is called counts as used both ways: it may be a
+/// function, or a struct, an array's type or a macro.
+std::set<Use> uses_in(std::string_view text) {
+  const std::string code = without_comments(text);
+  std::set<Use> uses;
+  for (std::size_t k = 0; k < code.size();) {
+    if (!is_word(code[k])) {
+      ++k;
+      continue;
+    }
+    std::size_t end = k;
+    while (end < code.size() && is_word(code[end])) ++end;
+    const std::string name = code.substr(k, end - k);
+    uses.emplace(name, no_call);
+    k = end;
+    while (k < code.size() && std::isspace(static_cast<unsigned char>(code[k])) != 0) ++k;
+    if (k < code.size() && code[k] == '(') uses.emplace(name, arguments_at(code, k));
+  }
+  return uses;
 }
 
 std::string last_word(std::string_view text) {
@@ -54,19 +87,20 @@ std::string word_at(std::string_view text, std::size_t k) {
   return std::string(text.substr(k, end - k));
 }
 
-/// The name that a declaration defines; "" for what is kept in any case.
-std::string defined_name(std::string_view code) {
+/// What a declaration defines; no name for what is kept in any case.
+Use definition(std::string_view code) {
   if (code.rfind("uniform", 0) == 0 || code.rfind("precision", 0) == 0 ||
       code.rfind("out ", 0) == 0 || code.rfind("in ", 0) == 0)
-    return "";
-  if (code.rfind("struct", 0) == 0) return word_at(code, 6);
+    return {"", no_call};
+  if (code.rfind("struct", 0) == 0) return {word_at(code, 6), no_call};
   const std::size_t open = code.find('(');
   const std::size_t equals = code.find('=');
   if (equals != std::string_view::npos && equals < open) {
     const std::size_t bracket = code.find('[');
-    return last_word(code.substr(0, std::min(bracket, equals)));
+    return {last_word(code.substr(0, std::min(bracket, equals))), no_call};
   }
-  return open == std::string_view::npos ? "" : last_word(code.substr(0, open));
+  if (open == std::string_view::npos) return {"", no_call};
+  return {last_word(code.substr(0, open)), arguments_at(code, open)};
 }
 
 class Splitter {
@@ -100,17 +134,17 @@ class Splitter {
   }
 
   void flush_comment() {
-    if (!comment_.empty()) pieces_.push_back({comment_ + "\n", "", {}});
+    if (!comment_.empty()) pieces_.push_back({comment_ + "\n"});
     comment_.clear();
   }
 
   /// Directives belong to no declaration; a #define has a name.
   void directive() {
     const std::string line = take_line();
-    Piece piece{comment_ + line, "", {}};
+    Piece piece{comment_ + line};
     comment_.clear();
-    piece.uses = names_in(line);
-    if (line.rfind("#define", 0) == 0 && depth_ == 0) piece.name = word_at(line, 7);
+    piece.uses = uses_in(line);
+    if (line.rfind("#define", 0) == 0 && depth_ == 0) piece.defines.first = word_at(line, 7);
     if (line.rfind("#if", 0) == 0) ++depth_;
     if (line.rfind("#endif", 0) == 0) --depth_;
     pieces_.push_back(std::move(piece));
@@ -135,7 +169,7 @@ class Splitter {
     ++at_;
     std::string code(text_.substr(begin, at_ - begin));
     if (at_ < text_.size() && text_[at_] == '\n') ++at_;
-    Piece piece{comment_ + code + "\n", defined_name(code), names_in(code)};
+    Piece piece{comment_ + code + "\n", definition(without_comments(code)), uses_in(code)};
     comment_.clear();
     pieces_.push_back(std::move(piece));
   }
@@ -151,29 +185,30 @@ class Splitter {
 
 std::string stripped_shader(std::string_view text, std::string_view root) {
   const std::vector<Piece> pieces = Splitter(text).run();
-  std::multimap<std::string, const Piece*> by_name;
-  std::set<std::string> reached{std::string(root)};
-  std::vector<std::string> open{std::string(root)};
-  const auto reach = [&](const Piece& piece) {
-    for (const std::string& name : piece.uses)
-      if (reached.insert(name).second) open.push_back(name);
+  std::multimap<Use, const Piece*> definitions;
+  std::set<Use> reached;
+  std::vector<Use> open;
+  const auto reach = [&](const Use& use) {
+    if (reached.insert(use).second) open.push_back(use);
   };
   for (const Piece& piece : pieces) {
-    if (!piece.name.empty())
-      by_name.emplace(piece.name, &piece);
+    if (piece.defines.first == root) reach(piece.defines);
+    if (!piece.defines.first.empty())
+      definitions.emplace(piece.defines, &piece);
     else
-      reach(piece);
+      for (const Use& use : piece.uses) reach(use);
   }
   while (!open.empty()) {
-    const std::string name = open.back();
+    const Use use = open.back();
     open.pop_back();
-    const auto [first, last] = by_name.equal_range(name);
-    for (auto k = first; k != last; ++k) reach(*k->second);
+    const auto [first, last] = definitions.equal_range(use);
+    for (auto k = first; k != last; ++k)
+      for (const Use& inner : k->second->uses) reach(inner);
   }
   std::string out;
   bool gap = false;
   for (const Piece& piece : pieces) {
-    if (!piece.name.empty() && reached.find(piece.name) == reached.end()) continue;
+    if (!piece.defines.first.empty() && reached.find(piece.defines) == reached.end()) continue;
     const bool line = piece.text[0] == '#' || piece.text.find('\n') + 1 == piece.text.size();
     if (!out.empty() && (!line || gap) && !out.ends_with("\n\n")) out += "\n";
     out += piece.text;

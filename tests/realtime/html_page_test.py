@@ -33,7 +33,7 @@ LEAST_PSNR_MAP = 40.0
 FLAGS = ["--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run",
          "--disable-background-networking", "--disable-component-update", "--disable-sync",
          "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-         "--window-size=640,480"]
+         "--window-size=640,480", "--hide-scrollbars"]
 
 
 def pixels_of(png):
@@ -134,6 +134,14 @@ class Browser:
         self.call("POST", self.session + "/actions", keys("keyDown"))
         time.sleep(seconds)
         self.call("POST", self.session + "/actions", keys("keyUp"))
+
+    def devtools(self, command, **parameters):
+        return self.call("POST", self.session + "/goog/cdp/execute",
+                         {"cmd": command, "params": parameters})
+
+    def fingers(self, kind, *places):
+        self.devtools("Input.dispatchTouchEvent", type=kind,
+                      touchPoints=[{"x": x, "y": y, "id": k} for k, (x, y) in enumerate(places)])
 
     def complaints(self):
         log = self.call("POST", self.session + "/se/log", {"type": "browser"})
@@ -244,6 +252,69 @@ class Page(unittest.TestCase):
         self.assertFalse(self.browser.run("return document.getElementById('help').open"))
         self.browser.press("p", 0.05)
         self.assertFalse(self.browser.run("return document.getElementById('panel').hidden"))
+
+    def test_a_link_shows_the_same_view(self):
+        self.show(self.page)
+        self.browser.run("""
+            landscape.azimuth += 40; landscape.tilt = -9; landscape.over = 420;
+            landscape.knobs.sun_elevation = 7;""")
+        before = self.browser.picture()
+        link = self.browser.run("return linkHere()")
+        for part in ("azimuth=", "tilt=-9", "over=420", "sun_elevation=7", "paused=1"):
+            self.assertIn(part, link)
+        self.browser.open("about:blank")
+        self.browser.open(link)
+        self.browser.wait("return landscape.ready || landscape.error")
+        self.assertGreater(psnr(before, self.browser.picture()), 40)
+        self.browser.press("l", 0.05)
+        self.browser.wait("return location.hash.includes('sun_elevation=7')")
+
+    def test_fingers_look_and_move(self):
+        self.show(self.page, "paused=1&quality=low")
+        self.browser.devtools("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=2)
+        before = self.browser.run("return [landscape.azimuth, landscape.tilt]")
+        self.browser.fingers("touchStart", (300, 200))
+        self.browser.fingers("touchMove", (240, 230))
+        self.browser.fingers("touchEnd")
+        after = self.browser.run("return [landscape.azimuth, landscape.tilt]")
+        self.assertGreater(after[0], before[0] + 1)  # the land follows the finger
+        self.assertGreater(after[1], before[1] + 1)
+        here = self.browser.run("return [landscape.east, landscape.north]")
+        self.browser.fingers("touchStart", (250, 200), (350, 200))
+        self.browser.fingers("touchMove", (250, 260), (350, 260))
+        self.browser.fingers("touchEnd")
+        there = self.browser.run("return [landscape.east, landscape.north]")
+        self.assertGreater(math.dist(here, there), 10)
+        self.assertEqual(self.browser.run("return fingers.size"), 0)
+        self.browser.devtools("Emulation.setTouchEmulationEnabled", enabled=False)
+        self.assertEqual(self.browser.complaints(), [])
+
+    def test_resolution_follows_window_and_load(self):
+        self.browser.open("about:blank")
+        self.browser.open(self.page.as_uri() + "#quality=low")
+        self.browser.wait("return landscape.ready || landscape.error")
+        self.browser.wait("return landscape.scale < 0.5")  # a processor draws: too slow for all
+        size = "return [document.getElementById('view').width, document.getElementById('view').height]"
+        for width, height in ((390, 300), (300, 390)):
+            self.browser.devtools("Emulation.setDeviceMetricsOverride", width=width, height=height,
+                                  deviceScaleFactor=2, mobile=True)
+            self.browser.wait("return innerWidth == %d" % width)
+            self.browser.wait("const c = document.getElementById('view');"
+                              "return Math.abs(c.width / c.height - %f) < 0.06" % (width / height))
+        self.browser.devtools("Emulation.clearDeviceMetricsOverride")
+        self.browser.press(" ", 0.05)
+        low = self.browser.run("return landscape.scale")
+        # Quick frames bring it back, up to what was too much before; later beyond.
+        frames = """
+            for (let k = 0; k < 300; ++k) { landscape.frames = 12 * k; adapt(arguments[0]); }
+            return landscape.scale;"""
+        self.browser.run("ceiling = 0.6; retry = performance.now() + 1e6;")
+        self.assertGreater(self.browser.run(frames, 8), low)
+        self.assertAlmostEqual(self.browser.run(frames, 8), max(0.6, low), delta=0.02)
+        self.browser.run("retry = 0;")
+        self.assertEqual(self.browser.run(frames, 8), 1)
+        self.assertLess(self.browser.run(frames, 60), 0.2)
+        self.assertGreater(self.browser.run(size)[0], 0)
 
     def test_lost_context_comes_back(self):
         self.show(self.page)

@@ -70,5 +70,25 @@ TEST(ShaderStrip, DropsTheRestWithItsComments) {
   EXPECT_EQ(stripped_shader(out, "mainImage"), out);  // nothing more to drop
 }
 
+TEST(ShaderStrip, DropsOverloadsThatNothingCalls) {
+  const std::string out = stripped_shader(R"(
+float sum(float a) { return a; }
+float sum(float a, float b) { return a + b; }  // , not a third (argument
+float sum(float a, float b, float c) {
+  return sum(a,
+             max(b, c));
+}
+float sum() { return 0.0; }
+void mainImage(out vec4 color, in vec2 pixel) {
+  color = vec4(sum(pixel.x, vec2(1.0, 2.0).x, table[int(max(1.0, 2.0))]));
+}
+)",
+                                          "mainImage");
+  EXPECT_TRUE(has(out, "sum(float a, float b)")) << out;
+  EXPECT_TRUE(has(out, "sum(float a, float b, float c)")) << out;
+  EXPECT_FALSE(has(out, "sum(float a) ")) << out;
+  EXPECT_FALSE(has(out, "sum()")) << out;
+}
+
 }  // namespace
 }  // namespace wold
