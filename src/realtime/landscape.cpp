@@ -83,10 +83,9 @@ std::string stand_in(const Scene& scene, std::vector<TerrainStep>& steps, Progre
   const double missing =
       double{(finished.most.high - finished.most.low) - (told.most.high - told.most.low)};
   if (!(missing > 0.3 * double{finished.most.high - finished.most.low})) return "";
-  const DVec2 size = domain_of(scene.terrain).size;
   // Between the first and the last hundredth of the land ridges span two thirds of their height.
   const double height = 1.5 * missing;
-  const double feature = std::min(0.3 * std::max(size.x, size.y), 4 * height);
+  const double feature = 4 * height;
   const double base = double{finished.most.low - told.most.low} - 0.1 * height;
   TerrainStep ranges =
       made_step("ridged", "ranges",
