@@ -11,6 +11,7 @@ INSTALL ?= yes
 BENCH ?= OFF
 TIDY_SECONDS ?= 0
 FUZZ_SECONDS ?= 60
+SIZE ?= 200x112
 
 BUILD := build/$(PRESET)
 WOLD := $(BUILD)/bin/wold
@@ -18,7 +19,7 @@ WOLD := $(BUILD)/bin/wold
 # $(call install,GROUPS): installs what is missing of these groups of packages.
 install = $(if $(filter no,$(INSTALL)),true,tools/install_dependencies $(1))
 
-.PHONY: forest program test check format tidy includes bench fuzz docs clean help
+.PHONY: forest program test check format tidy includes bench measures fuzz docs clean help
 
 forest: program ## install what is missing, build, render scenes/forest.toml to out/forest.png
 	@mkdir -p out
@@ -62,6 +63,13 @@ bench: ## build and run the benchmarks, write docs/benchmarks.md
 	@cmake --preset $(PRESET) -DWOLD_BENCH=ON --log-level=NOTICE
 	@cmake --build $(BUILD) --parallel $(JOBS)
 	@tools/run_benchmarks $(BUILD)/bin
+
+measures: ## measure the landscape shader anew into docs/realtime.md (SIZE=WxH: of its pictures)
+	@$(call install,build test)
+	@cmake --preset $(PRESET) -DWOLD_BENCH=ON --log-level=NOTICE
+	@cmake --build $(BUILD) --target realtime_measures --parallel $(JOBS)
+	@echo "Measuring: about 5 minutes without a graphics card."
+	@$(BUILD)/bin/realtime_measures docs/realtime.md --size $(SIZE)
 
 fuzz: ## feed the readers of files with what no file should hold (FUZZ_SECONDS=N for each)
 	@$(call install,build fuzz)

@@ -40,7 +40,9 @@ std::vector<float> halved(const std::vector<float>& fine, int width, int height)
   return out;
 }
 
-GpuTexture texture_of(const HeightMap& map) {
+}  // namespace
+
+GpuTexture height_map_texture(const HeightMap& map) {
   GpuTexture texture(map.width, map.height,
                      {.format = PixelFormat::r32f, .filter = TextureFilter::nearest, .levels = 0});
   std::vector<float> values;
@@ -57,8 +59,6 @@ GpuTexture texture_of(const HeightMap& map) {
   }
 }
 
-}  // namespace
-
 LandscapeDrawing::LandscapeDrawing(const Landscape& landscape) : body_(landscape_body(landscape)) {
   prepare(landscape.map);
 }
@@ -69,7 +69,7 @@ LandscapeDrawing::LandscapeDrawing(const std::string& fragment, const std::optio
 }
 
 void LandscapeDrawing::prepare(const std::optional<HeightMap>& map) {
-  if (map) map_ = texture_of(*map);
+  if (map) map_ = height_map_texture(*map);
 }
 
 void LandscapeDrawing::draw(const GpuProgram& program, int width, int height, float time) const {

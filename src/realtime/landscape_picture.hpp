@@ -12,6 +12,9 @@
 
 namespace wold {
 
+/// The map in 32 bits, with mipmaps: what landscape/height_map.glsl reads.
+GpuTexture height_map_texture(const HeightMap& map);
+
 /// A program for one landscape. Needs a current context, at its end too.
 class LandscapeDrawing {
  public:

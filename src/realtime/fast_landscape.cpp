@@ -1,0 +1,412 @@
+#include "realtime/fast_landscape.hpp"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "gpu/context.hpp"
+#include "gpu/objects.hpp"
+#include "realtime/fast_eye.hpp"
+#include "realtime/fast_passes.hpp"
+#include "realtime/fast_rings.hpp"
+#include "realtime/landscape_picture.hpp"
+
+namespace wold {
+
+namespace {
+
+constexpr int view_texels = 7;
+constexpr int shade_levels = 3;
+constexpr int shade_size = 512;
+constexpr double shade_cell = 50;  // m
+constexpr int still_turns = 4;     // of the clouds, from land to land
+constexpr float least_share_still = 0.12F;
+constexpr float least_share = 0.5F;
+
+int power_of_two_above(double x) {
+  int n = 1;
+  while (n < x) n *= 2;
+  return n;
+}
+
+/// The finest that `octaves` of a land show, m: finest_spacing of landscape/terrain.glsl.
+double finest_spacing(const Landscape& landscape, int octaves) {
+  double largest = 1000;
+  for (const LandscapeValue& v : landscape.values)
+    if (v.name == "LARGEST_FEATURE") largest = std::stod(v.value);
+  return double{landscape.settings.terrain_scale} * largest * std::exp2(-octaves - 1.0);
+}
+
+}  // namespace
+
+struct FastLandscapeDrawing::State {
+  State(const Landscape& landscape, const FastLandscapeSettings& settings);
+
+  void draw(int width, int height, const LandscapeEye& eye);
+  void make_tables();
+  void make_rings(int width);
+  void bake(const LandscapeEye& eye);
+  void bake_heights(const std::vector<RingStrip>& strips);
+  void bake_horizons(const std::vector<RingStrip>& strips);
+  void bake_shades(const std::vector<RingStrip>& strips);
+  void draw_view(const LandscapeEye& eye, int width, int height);
+  void draw_sky();
+  void draw_land(int width, int height);
+  void draw_clouds(int width, int height);
+  void resize(int width, int height);
+  void bind_all(const GpuProgram& program) const;
+  const GpuTarget& view() const { return views_[static_cast<std::size_t>(newest_view_)]; }
+  const GpuTarget& last_view() const { return views_[static_cast<std::size_t>(1 - newest_view_)]; }
+
+  LandscapeSettings knobs;
+  FastLandscapeSettings settings;
+  FastPasses passes;
+  double finest = 1;
+  double finest_shadow = 10;
+  GpuTexture map;
+
+  std::optional<RingSquares> squares;
+  std::optional<RingSquares> horizon_squares;
+  RingSquares shade_squares{shade_size, shade_levels, shade_cell};
+  int horizon_first = 0;
+  RingTarget ring_target;
+  GpuTexture heights;
+  GpuTexture maxima;
+  GpuTexture horizons;
+  GpuTexture shades;
+  DVec2 shade_middle{0};
+
+  GpuTarget transmittances;
+  GpuTarget multiples;
+  GpuTarget sky;
+  std::array<GpuTarget, 2> views_;
+  int newest_view_ = 0;
+  GpuTarget land;
+  GpuTarget new_clouds;
+  std::array<GpuTarget, 2> cloud_means;
+  int newest_mean = 0;
+
+  std::optional<LandscapeEye> last;
+  Vec3 sun{0, 0, 1};
+  int frames = 0;  // since the last cut
+  int number = 0;  // of all cloud passes
+  bool still = false;
+  float scale = 1;
+  int next_horizon = 0;
+};
+
+FastLandscapeDrawing::State::State(const Landscape& landscape, const FastLandscapeSettings& s)
+    : knobs(landscape.settings), settings(s), passes(landscape) {
+  finest = finest_spacing(landscape, knobs.octaves);
+  finest_shadow = finest_spacing(landscape, knobs.octaves_shadow);
+  if (landscape.map) map = height_map_texture(*landscape.map);
+  for (GpuTarget& v : views_)
+    v = GpuTarget(view_texels, 1, std::array{PixelFormat::rgba32f}, false, TextureFilter::nearest);
+  sky = GpuTarget(
+      24, 128, std::array{PixelFormat::rgba16f, PixelFormat::rgba16f, PixelFormat::rgba16f}, false);
+  transmittances = GpuTarget(256, 64, std::array{PixelFormat::rgba32f}, false);
+  multiples = GpuTarget(128, 32, std::array{PixelFormat::rgba32f}, false);
+  shades = GpuTexture(shade_size, shade_size,
+                      {.format = PixelFormat::rg16f, .repeat = true, .layers = shade_levels});
+  make_tables();
+}
+
+void FastLandscapeDrawing::State::make_tables() {
+  transmittances.bind();
+  passes[FastPass::transmittances].use();
+  draw_full_screen();
+  multiples.bind();
+  passes[FastPass::multiples].use();
+  draw_full_screen();
+}
+
+void FastLandscapeDrawing::State::make_rings(int width) {
+  int size = settings.ring_size;
+  if (size <= 0) size = std::clamp(power_of_two_above(2.0 * width), 256, 1024);
+  if (squares && squares->size() == size) return;
+  const double cell = 0.5 * finest;
+  const auto levels_to = [&](int texels, double first) {
+    int n = 1;
+    while ((0.5 * texels - 12) * std::ldexp(first, n - 1) <
+           static_cast<double>(knobs.max_rendering_distance))
+      ++n;
+    return n;
+  };
+  squares.emplace(size, levels_to(size, cell), cell);
+  horizon_first = 0;
+  while (std::ldexp(cell, horizon_first) < 0.5 * finest_shadow) ++horizon_first;
+  const int horizon_size = size / 2;
+  const double horizon_cell = std::ldexp(cell, horizon_first);
+  horizon_squares.emplace(horizon_size, levels_to(horizon_size, horizon_cell), horizon_cell);
+  const int halvings = static_cast<int>(std::lround(std::log2(size))) - 2;
+  heights = GpuTexture(
+      size, size, {.format = PixelFormat::rgba32f, .repeat = true, .layers = squares->levels()});
+  maxima = GpuTexture(size, size,
+                      {.format = PixelFormat::r32f,
+                       .filter = TextureFilter::nearest,
+                       .repeat = true,
+                       .layers = squares->levels(),
+                       .levels = halvings});
+  horizons = GpuTexture(
+      horizon_size, horizon_size,
+      {.format = PixelFormat::rgba32f, .repeat = true, .layers = horizon_squares->levels()});
+}
+
+void FastLandscapeDrawing::State::bind_all(const GpuProgram& program) const {
+  int unit = 0;
+  const auto bind = [&](const char* name, const GpuTexture& texture) {
+    if (texture) {
+      texture.bind(unit);
+      program.set(name, unit);
+    }
+    ++unit;
+  };
+  program.use();
+  bind("ring_heights", heights);
+  bind("ring_maxima", maxima);
+  bind("ring_horizons", horizons);
+  bind("cloud_shades", shades);
+  bind("frame_view", view().color());
+  bind("last_view", last_view().color());
+  bind("air_transmittances", transmittances.color());
+  bind("air_multiples", multiples.color());
+  bind("sky_by_air", sky.color(0));
+  bind("sky_by_aerosol", sky.color(1));
+  bind("sky_passed", sky.color(2));
+  bind("height_map", map);
+  if (squares) {
+    program.set("ring_size", squares->size());
+    program.set("ring_levels", squares->levels());
+    program.set("ring_cell", static_cast<float>(squares->cell(0)));
+    program.set("horizon_size", horizon_squares->size());
+    program.set("horizon_levels", horizon_squares->levels());
+    program.set("horizon_first", horizon_first);
+  }
+  if (last) {
+    program.set("ring_eye", Vec2(last->place));
+    program.set("iTime", last->time);
+  }
+  program.set("shade_cell", static_cast<float>(shade_cell));
+  program.set("shade_levels", shade_levels);
+  program.set("shade_middle", Vec2(shade_middle));
+  program.set("sun_now", sun);
+}
+
+void FastLandscapeDrawing::State::bake_heights(const std::vector<RingStrip>& strips) {
+  bake_land(passes, ring_target, *squares, strips, heights, maxima,
+            [&](const GpuProgram& program) { bind_all(program); });
+}
+
+void FastLandscapeDrawing::State::bake_horizons(const std::vector<RingStrip>& strips) {
+  if (strips.empty()) return;
+  const GpuProgram& program = passes[FastPass::horizons];
+  bind_all(program);
+  for (const RingStrip& s : strips) {
+    program.set("strip_low", s.low);
+    program.set("strip_cell", static_cast<float>(horizon_squares->cell(s.level)));
+    ring_target.draw(horizons, s.level, 0, horizon_squares->rects(s));
+  }
+}
+
+void FastLandscapeDrawing::State::bake_shades(const std::vector<RingStrip>& strips) {
+  if (strips.empty()) return;
+  const GpuProgram& program = passes[FastPass::shades];
+  bind_all(program);
+  for (const RingStrip& s : strips) {
+    program.set("strip_low", s.low);
+    program.set("strip_cell", static_cast<float>(shade_squares.cell(s.level)));
+    ring_target.draw(shades, s.level, 0, shade_squares.rects(s));
+  }
+}
+
+void FastLandscapeDrawing::State::bake(const LandscapeEye& eye) {
+  const bool sun_moves = knobs.day_speed != 0;
+  sun = sun_at(knobs, eye.time);
+  bake_heights(squares->move_to(eye.place));
+  std::vector<RingStrip> changed = horizon_squares->move_to(eye.place);
+  if (sun_moves) {
+    next_horizon = (next_horizon + 1) % horizon_squares->levels();
+    changed.push_back(horizon_squares->whole(next_horizon));
+  }
+  bake_horizons(changed);
+  if (!(knobs.cloud_steps > 0 && knobs.cloud_coverage > 0)) return;
+  const double rise = static_cast<double>(std::max(sun.z, 0.05F));
+  const DVec2 wind(static_cast<double>(knobs.wind_speed) * static_cast<double>(eye.time), 0);
+  const DVec2 to_layer = DVec2(sun.x, sun.y) / rise * static_cast<double>(knobs.clouds_height);
+  shade_middle = eye.place - wind + to_layer;
+  changed = shade_squares.move_to(shade_middle);
+  if (sun_moves) changed.push_back(shade_squares.whole(next_horizon % shade_levels));
+  bake_shades(changed);
+}
+
+void FastLandscapeDrawing::State::draw_view(const LandscapeEye& eye, int width, int height) {
+  newest_view_ = 1 - newest_view_;
+  const GpuProgram& program = passes[eye.camera ? FastPass::free_view : FastPass::flight_view];
+  bind_all(program);
+  program.set("iResolution", Vec3(width, height, 1));
+  if (eye.camera) {
+    const Vec3 forward = glm::normalize(eye.camera->direction);
+    program.set("camera_place", Vec4(eye.camera->position, 0));
+    program.set("camera_forward", forward);
+    program.set("camera_right", glm::normalize(glm::cross(forward, eye.camera->up)));
+  }
+  view().bind();
+  draw_full_screen();
+}
+
+void FastLandscapeDrawing::State::draw_sky() {
+  const GpuProgram& program = passes[FastPass::sky];
+  bind_all(program);
+  sky.bind();
+  draw_full_screen();
+}
+
+void FastLandscapeDrawing::State::draw_land(int width, int height) {
+  draw_sky();
+  const GpuProgram& program = passes[FastPass::land];
+  bind_all(program);
+  program.set("iResolution", Vec3(width, height, 1));
+  land.bind();
+  draw_full_screen();
+}
+
+void FastLandscapeDrawing::State::resize(int width, int height) {
+  if (land && land.width() == width && land.height() == height) return;
+  still = false;
+  land = GpuTarget(width, height, std::array{PixelFormat::rgba32f}, false);
+  new_clouds = GpuTarget((width + 1) / 2, (height + 1) / 2,
+                         std::array{PixelFormat::rgba16f, PixelFormat::r32f}, false);
+}
+
+void FastLandscapeDrawing::State::draw_clouds(int width, int height) {
+  constexpr std::array turns = {IVec2(0, 0), IVec2(1, 1), IVec2(1, 0), IVec2(0, 1)};
+  const IVec2 turn = turns[static_cast<std::size_t>(number % 4)];
+  const GpuProgram& march = passes[FastPass::clouds];
+  bind_all(march);
+  march.set("iResolution", Vec3(width, height, 1));
+  march.set("turn", turn);
+  march.set("start_turn", static_cast<float>(std::fmod(0.618033988749895 * (number / 4), 1.0)));
+  march.set("still", still);
+  march.set("land_picture", 12);
+  land.color().bind(12);
+  new_clouds.bind();
+  draw_full_screen();
+
+  GpuTarget& target = cloud_means[static_cast<std::size_t>(1 - newest_mean)];
+  if (!target || target.width() != width || target.height() != height)
+    target = GpuTarget(width, height, std::array{PixelFormat::rgba16f}, false);
+  const GpuTarget& before = cloud_means[static_cast<std::size_t>(newest_mean)];
+  const GpuProgram& resolve = passes[FastPass::resolve];
+  bind_all(resolve);
+  resolve.set("iResolution", Vec3(width, height, 1));
+  resolve.set("turn", turn);
+  resolve.set("has_history", frames > 0);
+  resolve.set("still", still);
+  // Until all four have been new, the history is made of what lies between.
+  const int rounds = frames / 4;
+  resolve.set("share", std::max(still ? least_share_still : least_share,
+                                1.0F / static_cast<float>(rounds + 1)));
+  resolve.set("new_clouds", 12);
+  new_clouds.color(0).bind(12);
+  resolve.set("new_distances", 13);
+  new_clouds.color(1).bind(13);
+  resolve.set("land_picture", 15);
+  land.color().bind(15);
+  if (before) {
+    resolve.set("cloud_history", 14);
+    before.color().bind(14);
+  }
+  target.bind();
+  draw_full_screen();
+  newest_mean = 1 - newest_mean;
+  ++number;
+  ++frames;
+}
+
+void FastLandscapeDrawing::State::draw(int width, int height, const LandscapeEye& eye) {
+  GLint shown = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &shown);
+  glDisable(GL_BLEND);
+  glDisable(GL_DEPTH_TEST);
+  GpuTimer timer;
+  if (settings.frame_time > 0) timer.begin();
+  const int w = std::max(1, static_cast<int>(std::lround(scale * static_cast<float>(width))));
+  const int h = std::max(1, static_cast<int>(std::lround(scale * static_cast<float>(height))));
+  make_rings(width);
+  if (last && is_cut(*last, eye)) frames = 0;
+  still = last && frames > 0 && stands(*last, eye) && knobs.day_speed == 0;
+  resize(w, h);
+  last = eye;
+  bake(eye);
+  // The eye moves on even where it stands: time has gone on.
+  draw_view(eye, w, h);
+  // Before an eye that stands only the clouds' shade moves, slowly.
+  if (!still || frames % still_turns == 0) draw_land(w, h);
+  const bool clouds = knobs.cloud_steps > 0 && knobs.cloud_coverage > 0;
+  if (clouds && frames == 0) {
+    // All at once, at this one place.
+    number = 0;
+    for (int k = 0; k < 4; ++k) {
+      draw_clouds(w, h);
+      still = true;
+    }
+    frames = 1;
+  } else if (clouds) {
+    draw_clouds(w, h);
+  } else {
+    ++frames;
+  }
+  const GpuProgram& show = passes[FastPass::show];
+  bind_all(show);
+  show.set("iResolution", Vec3(width, height, 1));
+  show.set("land_picture", 12);
+  land.color().bind(12);
+  show.set("has_history", clouds);
+  if (clouds) {
+    show.set("cloud_history", 14);
+    cloud_means[static_cast<std::size_t>(newest_mean)].color().bind(14);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(shown));
+  glViewport(0, 0, width, height);
+  draw_full_screen();
+  if (settings.frame_time > 0) {
+    const auto took = static_cast<float>(timer.end());
+    // In eighths, and slowly, so that a picture does not pump.
+    const float wanted = scale * std::sqrt(settings.frame_time / std::max(took, 1e-3F));
+    if (wanted < scale - 0.03F)
+      scale -= 0.125F;
+    else if (wanted > scale + 0.16F)
+      scale += 0.125F;
+    scale = std::clamp(scale, settings.least_scale, 1.0F);
+  }
+}
+
+FastLandscapeDrawing::FastLandscapeDrawing(const Landscape& landscape,
+                                           const FastLandscapeSettings& settings)
+    : state_(std::make_unique<State>(landscape, settings)) {}
+FastLandscapeDrawing::~FastLandscapeDrawing() = default;
+FastLandscapeDrawing::FastLandscapeDrawing(FastLandscapeDrawing&&) noexcept = default;
+FastLandscapeDrawing& FastLandscapeDrawing::operator=(FastLandscapeDrawing&&) noexcept = default;
+
+void FastLandscapeDrawing::draw(int width, int height, float time) {
+  state_->draw(width, height, eye_of_flight(state_->knobs, time));
+}
+
+void FastLandscapeDrawing::draw(int width, int height, float time, const Camera& camera) {
+  state_->draw(width, height, {DVec2(camera.position.x, camera.position.y), camera, time});
+}
+
+void FastLandscapeDrawing::cut() {
+  state_->frames = 0;
+}
+int FastLandscapeDrawing::frames() const {
+  return state_->frames;
+}
+float FastLandscapeDrawing::scale() const {
+  return state_->scale;
+}
+
+}  // namespace wold

@@ -1,0 +1,61 @@
+#pragma once
+// The landscape drawn fast: what the faithful shader (realtime/landscape_picture.hpp) shows, by
+// several passes that share work between pixels and frames. OpenGL 3.3.
+//
+// - The land's function is baked into squares of heights and slopes about the eye, level over
+//   level, with a pyramid of maxima over each; a ray goes down and up the pyramid, then the exact
+//   function finds the place by Newton's rule (Tevs, Ihrke, Seidel, "Maximum mipmaps for fast,
+//   accurate, and scalable dynamic height field rendering", I3D 2008). Only strips are baked anew
+//   when the eye moves.
+// - Shadows: what a march to the sun would find, baked per place with the distance at which it was
+//   found. Shade of clouds: baked in the air that drifts.
+// - Air: tables of transmittance and of light scattered more than once; a table of the sky about
+//   the eye; few steps before land (Hillaire, "A scalable and production ready sky and atmosphere
+//   rendering technique", EGSR 2020).
+// - Clouds: a quarter of the pixels each frame, the rest from the frames before, carried along with
+//   eye and wind and held to what is near in the new ones (Karis, "High-quality temporal
+//   supersampling", SIGGRAPH 2014).
+
+#include <memory>
+#include <optional>
+
+#include "realtime/landscape.hpp"
+#include "render/camera.hpp"
+
+namespace wold {
+
+struct FastLandscapeSettings {
+  float frame_time = 0;      ///< ms that a frame may take; 0: whatever it takes at full size
+  float least_scale = 0.5F;  ///< of the picture's size, to hold that time
+  int ring_size = 0;         ///< texels on a side of a baked square; 0: by the picture's size
+};
+
+class FastLandscapeDrawing {
+ public:
+  /// Needs a current context, at its end too. Throws Error(internal) with the driver's log.
+  explicit FastLandscapeDrawing(const Landscape& landscape,
+                                const FastLandscapeSettings& settings = {});
+  ~FastLandscapeDrawing();
+  FastLandscapeDrawing(FastLandscapeDrawing&&) noexcept;
+  FastLandscapeDrawing& operator=(FastLandscapeDrawing&&) noexcept;
+
+  /// Draws over the whole of the bound target, width x height pixels, `time` seconds into the
+  /// flight.
+  void draw(int width, int height, float time);
+  /// The same from a camera of the world's, whose place is measured from the terrain's middle.
+  void draw(int width, int height, float time, const Camera& camera);
+
+  /// The next picture has nothing to do with the last: its clouds are made whole. Found out alone
+  /// where the camera leaps or turns far, or time does.
+  void cut();
+  /// Pictures since the last cut, that one included.
+  int frames() const;
+  /// Of the picture's size, at which the last one was drawn.
+  float scale() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace wold
