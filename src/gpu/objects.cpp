@@ -145,6 +145,8 @@ unsigned GpuTexture::target() const {
   return settings_.layers > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
 }
 
+// It changes what the texture holds.
+// NOLINTNEXTLINE(readability-make-member-function-const)
 void GpuTexture::put(unsigned type, const void* data, int layer, int level) {
   const GLenum target = this->target();
   const int w = std::max(1, width_ >> level);
@@ -169,6 +171,7 @@ void GpuTexture::upload(std::span<const std::uint32_t> values, int layer, int le
   put(GL_UNSIGNED_INT, values.data(), layer, level);
 }
 
+// NOLINTNEXTLINE(readability-make-member-function-const)
 void GpuTexture::make_mipmaps() {
   glBindTexture(target(), id());
   glGenerateMipmap(target());
@@ -268,7 +271,7 @@ void GpuTimer::begin() {
   start_ = now_nanoseconds();
 }
 
-double GpuTimer::end() {
+double GpuTimer::end() const {
   glFinish();
   return static_cast<double>(now_nanoseconds() - start_) * 1e-6;
 }

@@ -239,7 +239,7 @@ void draw_full_screen();
 class GpuTimer {
  public:
   void begin();
-  double end();
+  double end() const;
 
  private:
   std::int64_t start_ = 0;

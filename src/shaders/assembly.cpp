@@ -58,8 +58,9 @@ class Assembler {
     }
   }
 
-  std::string text() && { return std::move(text_); }
-  std::vector<std::string> files() && { return std::move(files_); }
+  ShaderText finished(std::string name) && {
+    return {std::move(name), std::move(text_), std::move(files_)};
+  }
   void begin(std::string head) { text_ = std::move(head); }
 
  private:
@@ -134,10 +135,7 @@ ShaderText assemble_shader_text(std::string name, std::string_view body, ShaderD
   Assembler assembler(true);
   assembler.begin(head(dialect, defines));
   assembler.add(name, body);
-  ShaderText out{std::move(name), {}, {}};
-  out.files = std::move(assembler).files();
-  out.text = std::move(assembler).text();
-  return out;
+  return std::move(assembler).finished(std::move(name));
 }
 
 ShaderText assemble_shader(std::string_view path, ShaderDialect dialect,
@@ -148,7 +146,7 @@ ShaderText assemble_shader(std::string_view path, ShaderDialect dialect,
 std::string flatten_shader(std::string_view body) {
   Assembler assembler(false);
   assembler.add("", body);
-  return std::move(assembler).text();
+  return std::move(assembler).finished({}).text;
 }
 
 std::string readable_shader_log(std::string_view log, const ShaderText& shader) {

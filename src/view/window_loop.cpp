@@ -110,7 +110,7 @@ class WindowLoop {
     }
   }
 
-  void take_shot(const Viewer& viewer, ViewerScreen& screen) {
+  void take_shot(const Viewer& viewer, ViewerScreen& screen) const {
     const FramePattern pattern(settings_.shots);
     int number = 1;
     while (std::filesystem::exists(pattern.name(number))) ++number;
