@@ -7,6 +7,7 @@
 
 #include "base/hash.hpp"
 #include "base/parallel.hpp"
+#include "raster/plant_mesh.hpp"
 #include "render/ray_scene.hpp"
 
 namespace wold {

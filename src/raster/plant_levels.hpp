@@ -69,11 +69,4 @@ PlantLevels plant_levels(const Model& model, const std::vector<SurfaceMaterial>&
 /// Of all models, in parallel. Throws Error(cancelled).
 std::vector<PlantLevels> plant_levels(const World& world, Progress& progress);
 
-/// Growth in area of what is kept at a share: of leaves, and of what grows in width alone.
-float leaf_growth(float share);
-float strip_growth(float share);
-
-/// The triangles of a level at a share, as the vertex shader places them. One part per slot.
-TriangleMesh plant_mesh_at(const PlantLevels& levels, bool is_fine, float share);
-
 }  // namespace wold

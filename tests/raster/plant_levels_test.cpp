@@ -6,6 +6,7 @@
 
 #include "base/parallel.hpp"
 #include "plants/plant.hpp"
+#include "raster/plant_mesh.hpp"
 #include "raster/plant_openness.hpp"
 #include "raster/plant_shape.hpp"
 
