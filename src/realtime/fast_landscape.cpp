@@ -288,7 +288,8 @@ void FastLandscapeDrawing::State::draw_clouds(int width, int height) {
   bind_all(march);
   march.set("iResolution", Vec3(width, height, 1));
   march.set("turn", turn);
-  march.set("start_turn", static_cast<float>(std::fmod(0.618033988749895 * (number / 4), 1.0)));
+  const double round = std::floor(0.25 * number);
+  march.set("start_turn", static_cast<float>(std::fmod(0.618033988749895 * round, 1.0)));
   march.set("still", still);
   march.set("land_picture", 12);
   land.color().bind(12);
