@@ -76,7 +76,8 @@ TerrainStep made_step(const char* op, const char* name,
 }
 
 /// Ranges in the place of steps that raise mountains but cannot be told by a function: about as
-/// high as the finished land is, with arêtes and gullies on them. Returns what was done, or "".
+/// high as the finished land is, with arêtes and gullies where they are mountains. Returns what was
+/// done, or "".
 std::string stand_in(const Scene& scene, std::vector<TerrainStep>& steps, Progress& progress) {
   const Relief finished = survey(scene, scene.steps, 1, progress);
   const Relief told = survey(scene, steps, 1, progress);
@@ -85,7 +86,8 @@ std::string stand_in(const Scene& scene, std::vector<TerrainStep>& steps, Progre
   if (!(missing > 0.3 * double{finished.most.high - finished.most.low})) return "";
   // Between the first and the last hundredth of the land ridges span two thirds of their height.
   const double height = 1.5 * missing;
-  const double feature = 4 * height;
+  const bool mountains = missing > 500;
+  const double feature = (mountains ? 4 : 9) * height;
   const double base = double{finished.most.low - told.most.low} - 0.1 * height;
   TerrainStep ranges =
       made_step("ridged", "ranges",
@@ -94,10 +96,12 @@ std::string stand_in(const Scene& scene, std::vector<TerrainStep>& steps, Progre
   steps.push_back(std::move(ranges));
   steps.push_back(
       made_step("warp", "bends", {{"distance", 0.05 * feature}, {"feature_size", 0.5 * feature}}));
-  steps.push_back(
-      made_step("ridged", "aretes",
-                {{"height", 0.13 * height}, {"feature_size", 0.12 * feature}, {"hurst", 0.95}}));
-  return fmt::format("ridges {:.0f} m high stand in for them", missing);
+  if (mountains)
+    steps.push_back(
+        made_step("ridged", "aretes",
+                  {{"height", 0.13 * height}, {"feature_size", 0.12 * feature}, {"hurst", 0.95}}));
+  return fmt::format("{} {:.0f} m high stand in for them", mountains ? "mountains" : "hills",
+                     missing);
 }
 
 /// Stops that make up for land darker than most, as a photographer would.
