@@ -138,6 +138,29 @@ TEST(Export, LowQualityDrawsAnotherPicture) {
   EXPECT_GT(psnr(normal, low), 10);
 }
 
+TEST(Export, TreesStandWhereTheKnobSays) {
+  const OffscreenContext context;
+  const Scene scene = read_scene(std::filesystem::path(WOLD_SOURCE_DIR) / "scenes/forest.toml",
+                                 std::vector<std::string>{"terrain.resolution=65"});
+  Progress progress;
+  Landscape landscape = landscape_of(scene, {}, progress);
+  landscape.settings.low_quality = true;
+  landscape.settings.cam_tilt = -40;
+  const auto green_over_red = [&](float trees) {
+    landscape.settings.trees = trees;
+    const Image picture = landscape_picture(LandscapeDrawing(landscape), 32, 18, 0);
+    double green = 0;
+    double red = 0;
+    for (int y = 0; y < picture.height; ++y)
+      for (int x = 0; x < picture.width; ++x) {
+        red += double{picture.at(x, y, 0)};
+        green += double{picture.at(x, y, 1)};
+      }
+    return green / red;
+  };
+  EXPECT_GT(green_over_red(1), 1.1 * green_over_red(0));
+}
+
 TEST(Export, AShaderThatFailsTellsFileAndLine) {
   const OffscreenContext context;
   Landscape landscape = mountains();

@@ -55,7 +55,7 @@ float woods(vec2 place, float slope, float height, float footprint) {
   float n = patches(place, 520.0, footprint, 4, 31u);
   float gentle = 1.0 - smoothstep(30.0, 38.0, slope);
   float low = 1.0 - smoothstep(TREE_LINE - 120.0, TREE_LINE, height + 150.0 * n);
-  return gentle * low * smoothstep(-0.06, 0.06, n + TREES - 0.5);
+  return gentle * low * smoothstep(-0.06, 0.06, n + 1.7 * (TREES - 0.5)) * min(20.0 * TREES, 1.0);
 }
 
 // Colour at a place (the footprint already a part of the pixel's), from the wide form of the land;
