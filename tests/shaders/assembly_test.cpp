@@ -30,15 +30,15 @@ TEST(Shaders, AnUnknownFileIsToldWithTheNearestAndWhereItIsAskedFor) {
 
 TEST(Shaders, EachFileStandsOnceAndLinesAreCounted) {
   const ShaderText shader = assemble_shader_text(
-      "main", "#include \"raster/light.glsl\"\n#include \"raster/view.glsl\"\nvoid main() {}\n",
+      "main", "#include \"noise/noise.glsl\"\n#include \"noise/lattice.glsl\"\nvoid main() {}\n",
       ShaderDialect::gl_330, std::vector<ShaderDefine>{{"STEPS", "3"}});
   EXPECT_TRUE(shader.text.starts_with("#version 330 core\n#define STEPS 3\n"));
   EXPECT_EQ(shader.files,
-            (std::vector<std::string>{"main", "raster/light.glsl", "raster/view.glsl"}));
-  const std::string uniform = "uniform mat4 view_projection";
-  const auto first = shader.text.find(uniform);
+            (std::vector<std::string>{"main", "noise/noise.glsl", "noise/lattice.glsl"}));
+  const std::string function = "uint lattice_key(uint";
+  const auto first = shader.text.find(function);
   ASSERT_NE(first, std::string::npos);
-  EXPECT_EQ(shader.text.find(uniform, first + 1), std::string::npos);
+  EXPECT_EQ(shader.text.find(function, first + 1), std::string::npos);
   EXPECT_NE(shader.text.find("#line 3 0\nvoid main() {}"), std::string::npos);
 }
 
