@@ -9,6 +9,7 @@ namespace {
 
 constexpr double cell_size = 3;  // m
 constexpr int most_cells = 1024;
+constexpr int undergrowth_cells = 256;
 constexpr double wide = 12;  // m, reach of the mean over what stands around, to each side
 
 /// The crown of a model, in its own metres.
@@ -109,18 +110,51 @@ std::vector<float> box_means(const std::vector<float>& values, int width, int he
 
 }  // namespace
 
-CanopyShade canopy_shade(const World& world, float least_height) {
+namespace {
+
+std::vector<Crown> crowns_of(const World& world) {
   std::vector<Crown> crowns;
   for (const Model& model : world.models) crowns.push_back(crown_of(model, world.materials));
-  CanopyShade shade;
-  const Heightfield& field = world.ground.field();
+  return crowns;
+}
+
+Cells empty_cells(DVec2 low, DVec2 size, double cell) {
   Cells cells;
-  cells.low = field.origin;
-  cells.cell = std::max(cell_size, std::max(field.size().x, field.size().y) / most_cells);
-  cells.width = std::max(1, static_cast<int>(std::ceil(field.size().x / cells.cell)));
-  cells.height = std::max(1, static_cast<int>(std::ceil(field.size().y / cells.cell)));
+  cells.low = low;
+  cells.cell = cell;
+  cells.width = std::max(1, static_cast<int>(std::ceil(size.x / cell)));
+  cells.height = std::max(1, static_cast<int>(std::ceil(size.y / cell)));
   const auto count = static_cast<std::size_t>(cells.width) * static_cast<std::size_t>(cells.height);
   for (auto* list : {&cells.area, &cells.foot, &cells.top}) list->assign(count, 0);
+  return cells;
+}
+
+CanopyShade shade_of(const Cells& cells) {
+  CanopyShade shade;
+  shade.width = cells.width;
+  shade.height = cells.height;
+  shade.texels.reserve(4 * cells.area.size());
+  const int reach = std::max(1, static_cast<int>(std::lround(wide / cells.cell)));
+  const std::vector<float> around =
+      box_means(box_means(cells.area, cells.width, cells.height, reach, true), cells.width,
+                cells.height, reach, false);
+  const auto cell_area = static_cast<float>(cells.cell * cells.cell);
+  for (std::size_t k = 0; k < cells.area.size(); ++k)
+    for (const float sum : {cells.area[k], cells.foot[k], cells.top[k], around[k]})
+      shade.texels.push_back(sum / cell_area);
+  const DVec2 scale = 1.0 / (cells.cell * DVec2(cells.width, cells.height));
+  shade.place = Vec4(Vec2(scale), Vec2(-cells.low * scale));
+  return shade;
+}
+
+}  // namespace
+
+CanopyShade canopy_shade(const World& world, float least_height) {
+  const std::vector<Crown> crowns = crowns_of(world);
+  const Heightfield& field = world.ground.field();
+  const DVec2 size = field.size();
+  Cells cells =
+      empty_cells(field.origin, size, std::max(cell_size, std::max(size.x, size.y) / most_cells));
   bool any = false;
   for (const ModelInstance& plant : world.instances) {
     const Crown& crown = crowns[plant.model];
@@ -128,22 +162,21 @@ CanopyShade canopy_shade(const World& world, float least_height) {
     add_crown(cells, crown, plant);
     any = true;
   }
-  if (!any) return shade;
-  shade.width = cells.width;
-  shade.height = cells.height;
-  shade.texels.reserve(4 * count);
-  const int reach = std::max(1, static_cast<int>(std::lround(wide / cells.cell)));
-  const std::vector<float> around =
-      box_means(box_means(cells.area, cells.width, cells.height, reach, true), cells.width,
-                cells.height, reach, false);
-  const auto cell_area = static_cast<float>(cells.cell * cells.cell);
-  for (std::size_t k = 0; k < count; ++k) {
-    for (const float sum : {cells.area[k], cells.foot[k], cells.top[k], around[k]})
-      shade.texels.push_back(sum / cell_area);
+  return any ? shade_of(cells) : CanopyShade{};
+}
+
+CanopyShade undergrowth_shade(const World& world, std::span<const ModelInstance> plants, DVec2 eye,
+                              double half_width) {
+  if (plants.empty()) return {};
+  const std::vector<Crown> crowns = crowns_of(world);
+  Cells cells =
+      empty_cells(eye - half_width, DVec2(2 * half_width), 2 * half_width / undergrowth_cells);
+  for (const ModelInstance& plant : plants) {
+    const DVec2 off = glm::abs(DVec2(plant.position.x, plant.position.y) - eye);
+    const Crown& crown = crowns[plant.model];
+    if (crown.leaf_area > 0 && std::max(off.x, off.y) < half_width) add_crown(cells, crown, plant);
   }
-  const DVec2 scale = 1.0 / (cells.cell * DVec2(cells.width, cells.height));
-  shade.place = Vec4(Vec2(scale), Vec2(-cells.low * scale));
-  return shade;
+  return shade_of(cells);
 }
 
 }  // namespace wold

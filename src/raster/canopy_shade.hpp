@@ -25,7 +25,12 @@ struct CanopyShade {
   Vec4 place{0};  ///< texture coordinate = zw + xy · place; all 0: no crowns
 };
 
-/// Of the plants of at least `least_height` metres, over the square from `low` to `high`.
+/// Of the world's plants of at least `least_height` metres, over its field.
 CanopyShade canopy_shade(const World& world, float least_height = 3);
+
+/// Of small plants about an eye, finely: leaf area over a square of that half-width, of models of
+/// the world.
+CanopyShade undergrowth_shade(const World& world, std::span<const ModelInstance> plants, DVec2 eye,
+                              double half_width);
 
 }  // namespace wold

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double near_step = 5;  // m that the eye moves before the plants about it are found anew
 // As the path tracer dices the ground under them.
+constexpr double undergrowth_reach = 50;  // m
 constexpr float near_spacing_pixels = 2;
 constexpr float default_pixel_angle = 1e-3F;
 
@@ -53,27 +54,33 @@ void SceneDrawing::find_near_plants(const Camera& camera) {
   near_eye_ = eye;
   const float spacing_angle = near_spacing_pixels * default_pixel_angle;
   finding_near_.begin([this, eye, place = camera.position, spacing_angle](Progress& progress) {
-    std::vector<ModelInstance> plants = world_->plants_near(eye, progress);
-    world_->set_on_drawn_ground(plants, place, spacing_angle);
-    return plants;
+    NearPlants found;
+    found.plants = world_->plants_near(eye, progress);
+    world_->set_on_drawn_ground(found.plants, place, spacing_angle);
+    found.shade = undergrowth_shade(world_->world(), found.plants, eye, undergrowth_reach);
+    return found;
   });
 }
 
 bool SceneDrawing::take_near_plants() {
-  std::optional<BackgroundJob<std::vector<ModelInstance>>::Outcome> outcome = finding_near_.take();
-  const auto* plants = outcome ? std::get_if<std::vector<ModelInstance>>(&*outcome) : nullptr;
-  if (plants == nullptr) return false;
-  plants_.set_near_plants(*plants);
-  light_.shadows().forget();
+  std::optional<BackgroundJob<NearPlants>::Outcome> outcome = finding_near_.take();
+  const auto* found = outcome ? std::get_if<NearPlants>(&*outcome) : nullptr;
+  if (found == nullptr) return false;
+  set_near_plants(*found);
   return true;
+}
+
+void SceneDrawing::set_near_plants(const NearPlants& found) {
+  plants_.set_near_plants(found.plants);
+  light_.set_undergrowth(found.shade);
+  light_.shadows().forget();
 }
 
 void SceneDrawing::settle(const Camera& camera) {
   const DVec2 eye(camera.position.x, camera.position.y);
   if (near_eye_ != eye) find_near_plants(camera);
   if (!finding_near_.busy()) return;
-  plants_.set_near_plants(finding_near_.wait());
-  light_.shadows().forget();
+  set_near_plants(finding_near_.wait());
   picture_.restart();
 }
 
@@ -106,7 +113,7 @@ void SceneDrawing::replace(const PlantedWorld& world, Progress& progress) {
     plants_.set_plants(next.instances);
   else
     plants_ = PlantDrawing(next, progress, plants_.detail());
-  plants_.set_near_plants({});
+  set_near_plants({});
   world_ = &world;
   terrain_.update(next.ground);
   light_.set_canopy(canopy_shade(next));

@@ -53,10 +53,16 @@ class SceneDrawing {
   std::size_t drawn_triangles() const;
 
  private:
+  struct NearPlants {
+    std::vector<ModelInstance> plants;
+    CanopyShade shade;
+  };
+
   void shade_land(const Ground& ground);
   void set_sun();
   void find_near_plants(const Camera& camera);
   bool take_near_plants();
+  void set_near_plants(const NearPlants& found);
 
   const PlantedWorld* world_;
   SceneLight light_;
@@ -65,7 +71,7 @@ class SceneDrawing {
   PlantDrawing plants_;
   PictureDrawing picture_;
   std::optional<DVec2> near_eye_;  // the eye that the plants around it were last asked for
-  BackgroundJob<std::vector<ModelInstance>> finding_near_;
+  BackgroundJob<NearPlants> finding_near_;
 };
 
 }  // namespace wold

@@ -84,6 +84,15 @@ void SceneLight::set_canopy(const CanopyShade& canopy) {
   canopy_map_.upload(canopy.texels);
 }
 
+void SceneLight::set_undergrowth(const CanopyShade& undergrowth) {
+  undergrowth_place_ = undergrowth.place;
+  if (undergrowth.texels.empty()) return;
+  if (!undergrowth_map_)
+    undergrowth_map_ =
+        GpuTexture(undergrowth.width, undergrowth.height, {.format = PixelFormat::rgba32f});
+  undergrowth_map_.upload(undergrowth.texels);
+}
+
 void SceneLight::apply(const GpuProgram& program) const {
   program.set("sun_direction", sky_.sun_direction());
   program.set("sun_irradiance", sky_.sun_visible() ? sky_.sun_irradiance() : Vec3(0));
@@ -94,6 +103,9 @@ void SceneLight::apply(const GpuProgram& program) const {
   program.set("canopy_map", first_light_unit + 2);
   program.set("canopy_place", canopy_place_);
   if (canopy_map_) canopy_map_.bind(first_light_unit + 2);
+  program.set("undergrowth_map", first_light_unit - 1);
+  program.set("undergrowth_place", undergrowth_place_);
+  if (undergrowth_map_) undergrowth_map_.bind(first_light_unit - 1);
   terrain_shade_.apply(program, first_light_unit + 3);
 }
 

@@ -13,7 +13,7 @@
 
 namespace wold {
 
-/// Texture units 8 and up belong to the light; 0 to 7 are free for what is drawn.
+/// Texture units 7 and up belong to the light; 0 to 6 are free for what is drawn.
 inline constexpr int first_light_unit = 8;
 
 /// Irradiance in lx of a surface by its direction, as nine spherical harmonics with the constants
@@ -27,6 +27,7 @@ class SceneLight {
   /// The moment changes.
   void set_sky(Sky sky);
   void set_canopy(const CanopyShade& canopy);
+  void set_undergrowth(const CanopyShade& undergrowth);
   ShadowMaps& shadows() { return shadows_; }
   /// What the land hides of sun and sky, beyond shadow maps.
   TerrainShade& terrain_shade() { return terrain_shade_; }
@@ -46,6 +47,8 @@ class SceneLight {
   GpuTexture table_;
   GpuTexture canopy_map_;
   Vec4 canopy_place_{0};
+  GpuTexture undergrowth_map_;
+  Vec4 undergrowth_place_{0};
   ShadowMaps shadows_;
   TerrainShade terrain_shade_;
   int frame_ = 0;

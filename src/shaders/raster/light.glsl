@@ -39,6 +39,14 @@ vec3 diffuse_radiance(vec3 place, vec3 normal, vec3 reflectance) {
   return reflectance * light / light_pi;
 }
 
+// The same of ground, which small plants stand on.
+vec3 ground_radiance(vec3 place, vec3 normal, vec3 reflectance) {
+  float facing = dot(normal, sun_direction);
+  vec3 light = ambient_irradiance(place, normal) * under_undergrowth(place);
+  if (facing > 0.0) light += sun_irradiance * (facing * sun_share(place, normal));
+  return reflectance * light / light_pi;
+}
+
 // The same of a thin sheet, lit from both sides: leaves. `normal` looks towards the eye.
 vec3 sheet_radiance(vec3 place, vec3 normal, vec3 reflectance, vec3 transmittance) {
   float facing = dot(normal, sun_direction);

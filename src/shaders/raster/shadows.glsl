@@ -17,6 +17,8 @@ uniform vec2 depth_range;                // depth = x + y · depth as stored
 // Leaf area per m² of ground, that times its foot and top (m), and its mean around.
 uniform sampler2D canopy_map;
 uniform vec4 canopy_place;     // texture = zw + xy · place; all 0: no crowns
+uniform sampler2D undergrowth_map;  // the same of small plants about the eye
+uniform vec4 undergrowth_place;
 
 // J. Jimenez, "Next generation post processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014.
 float interleaved_noise(vec2 pixel) {
@@ -60,6 +62,14 @@ vec2 canopy_above(vec3 place) {
 float under_canopy(vec3 place) {
   vec2 leaves = canopy_above(place);
   return exp(-0.5 * leaves.x) * 0.5 + 0.5 * exp(-0.7 * leaves.y);
+}
+
+// Part of the sky that small plants let through to the ground under them.
+float under_undergrowth(vec3 place) {
+  if (undergrowth_place.x == 0.0) return 1.0;
+  vec2 at = undergrowth_place.zw + undergrowth_place.xy * place.xy;
+  vec2 inside = smoothstep(0.0, 0.1, at) * (1.0 - smoothstep(0.9, 1.0, at));
+  return exp(-0.5 * texture(undergrowth_map, at).x * inside.x * inside.y);
 }
 
 // Part of the sun that crowns around let through, on the mean: where there are no shadow maps.

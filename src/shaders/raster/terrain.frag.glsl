@@ -62,7 +62,7 @@ void main() {
   // A normal that faces away, as at silhouettes, is brought to where the eye sees it.
   float facing = dot(s.normal, to_eye);
   if (facing < 0.01) s.normal = normalize(s.normal + (0.01 - facing) * to_eye);
-  vec3 light = diffuse_radiance(world, s.normal, s.reflectance);
+  vec3 light = ground_radiance(world, s.normal, s.reflectance);
   vec3 drawn = vec3(place, height);
   vec3 flat_normal = cross(dFdx(drawn), dFdy(drawn));
   flat_normal *= flat_normal.z < 0.0 ? -1.0 : 1.0;
