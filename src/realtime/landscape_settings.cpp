@@ -76,6 +76,8 @@ Description<LandscapeSettings> describe(const LandscapeSettings&) {
            "Steps through the clouds; 0 for none.")
       .add("CLOUD_LIGHT_STEPS", &S::cloud_light_steps, {.min = 1, .max = 64},
            "Steps from each of them to the sun.")
+      .add("CLOUD_EVEN_STEPS", &S::cloud_even_steps,
+           "Steps through clouds all alike, instead of short ones where a cloud begins.")
       .add("SUN_ELEVATION", &S::sun_elevation, {.unit = "degrees", .min = -90, .max = 90},
            "Height of the sun.")
       .add("SUN_AZIMUTH", &S::sun_azimuth, {.unit = "degrees", .min = -360, .max = 360},

@@ -27,6 +27,7 @@ struct LandscapeSettings {
   int atmos_light_steps = 4;
   int cloud_steps = 64;
   int cloud_light_steps = 12;
+  bool cloud_even_steps = false;
 
   float sun_elevation = 30;  ///< degrees
   float sun_azimuth = 200;   ///< degrees

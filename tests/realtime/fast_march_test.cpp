@@ -14,6 +14,11 @@
 namespace wold {
 namespace {
 
+std::size_t texel_at(int row, int width, int column) {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+         static_cast<std::size_t>(column);
+}
+
 constexpr int size = 64;
 constexpr int levels = 3;
 constexpr int halvings = 5;
@@ -62,7 +67,7 @@ class FastMarch : public testing::Test {
 
   std::vector<float> maxima(int level) const {
     const int n = size >> level;
-    std::vector<float> values(static_cast<std::size_t>(n * n * levels));
+    std::vector<float> values(texel_at(n * levels, n, 0));
     glBindTexture(GL_TEXTURE_2D_ARRAY, maxima_.id());
     glGetTexImage(GL_TEXTURE_2D_ARRAY, level, GL_RED, GL_FLOAT, values.data());
     return values;
@@ -92,10 +97,9 @@ TEST_F(FastMarch, EachMaximumIsThatOfItsChildren) {
       for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) {
           const auto child = [&](int di, int dj) {
-            return fine[static_cast<std::size_t>((layer * 2 * n + 2 * j + dj) * 2 * n + 2 * i +
-                                                 di)];
+            return fine[texel_at(layer * 2 * n + 2 * j + dj, 2 * n, 2 * i + di)];
           };
-          ASSERT_EQ(coarse[static_cast<std::size_t>((layer * n + j) * n + i)],
+          ASSERT_EQ(coarse[texel_at(layer * n + j, n, i)],
                     std::max({child(0, 0), child(1, 0), child(0, 1), child(1, 1)}));
         }
   }

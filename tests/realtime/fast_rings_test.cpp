@@ -40,7 +40,8 @@ class Written {
  private:
   IVec2& at(int level, IVec2 texel) {
     return texels_[static_cast<std::size_t>(level)]
-                  [static_cast<std::size_t>(texel.y * squares_.size() + texel.x)];
+                  [static_cast<std::size_t>(texel.y) * static_cast<std::size_t>(squares_.size()) +
+                   static_cast<std::size_t>(texel.x)];
   }
   const RingSquares& squares_;
   std::vector<std::vector<IVec2>> texels_;

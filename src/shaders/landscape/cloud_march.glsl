@@ -1,9 +1,12 @@
 // Clouds along a ray in few steps: long ones through clear air, and short ones from where a cloud
-// begins, so that its surface shows neither grain nor layers.
+// begins, so that its surface shows neither grain nor layers. CLOUD_EVEN_STEPS: all alike.
 #include "sky/clouds.glsl"
 
 #ifndef ZERO
 #define ZERO 0
+#endif
+#ifndef CLOUD_EVEN_STEPS
+#define CLOUD_EVEN_STEPS 0
 #endif
 
 CloudLight clouds_met(CloudLayer layer, Atmosphere a, vec2 place, AirRay ray, vec3 direction,
@@ -18,6 +21,9 @@ CloudLight clouds_met(CloudLayer layer, Atmosphere a, vec2 place, AirRay ray, ve
   float longest = (end - span.begin) / float(steps.along);
   // Of a free path in the densest cloud; far off, of what a pixel shows.
   float shortest = min(longest, max(0.6 / extinction, 5e-4 * span.begin));
+#if CLOUD_EVEN_STEPS == 1
+  shortest = longest;
+#endif
   float stride = longest;
   float s = span.begin + start * longest;
   for (int k = ZERO; k < 3 * steps.along && s < end && seen.transmittance > 0.01; ++k) {
