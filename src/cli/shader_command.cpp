@@ -133,7 +133,7 @@ class ShaderRun {
     const OffscreenContext context;
     const LandscapeDrawing drawing(landscape_tab(landscape), landscape.map);
     const Image image = landscape_picture(drawing, size.x, size.y, options_.time);
-    const std::string written = delivery.write(options_.screenshot, [&](const std::string& path) {
+    std::string written = delivery.write(options_.screenshot, [&](const std::string& path) {
       write_png(path, image, {.bits = 8, .srgb = true});
     });
     if (!written.empty())

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdlib>
+#include <iostream>
 #include <optional>
 
 #include "base/error.hpp"
@@ -30,6 +32,25 @@ TEST(Context, GivesEs3) {
   const auto out = evaluate_shader("vec4 evaluate(vec4 a, vec4 b) { return a + 2.0 * b; }",
                                    std::array{Vec4(1)}, std::array{Vec4(2)});
   EXPECT_EQ(out[0], Vec4(5));
+}
+
+/// In a process of its own: Mesa looks at its environment once.
+void ask_for_a_context_of_an_old_driver() {
+  ::setenv("MESA_GL_VERSION_OVERRIDE", "3.0", 1);
+  try {
+    const OffscreenContext context;
+    gpu_info();
+  } catch (const Error& error) {
+    std::cerr << error.message();
+    std::exit(3);
+  }
+  std::exit(0);
+}
+
+TEST(ContextDeathTest, OfADriverThatIsTooOldSaysWhatHelps) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(ask_for_a_context_of_an_old_driver(), testing::ExitedWithCode(3),
+              "OpenGL 3.3.*libgl1-mesa-dri");
 }
 
 class Gpu : public testing::Test {
