@@ -99,8 +99,7 @@ class Writer {
 
   /// Writes the raw fractal as a function and returns its name.
   std::string fractal(const Fractal& f, float feature_size, std::uint64_t seed, bool with_means) {
-    const std::string name =
-        fmt::format("noise_{}{}", count_, static_cast<char>('a' + fractals_++));
+    std::string name = fmt::format("noise_{}{}", count_, static_cast<char>('a' + fractals_++));
     text_ += fractal_function(name, f, feature_size, domain_.center(), seed, with_means);
     return name;
   }

@@ -37,8 +37,8 @@ Vec3 sky_on_ground(const SunlitAir& air, float sun_sine) {
   const float sun_across = std::sqrt(std::max(0.0F, 1 - sun_sine * sun_sine));
   Vec3 sum(0);
   for (int k = 0; k < rings * angles; ++k) {
-    const float cosine =
-        std::sqrt((static_cast<float>(k / angles) + 0.5F) / static_cast<float>(rings));
+    const int ring = k / angles;
+    const float cosine = std::sqrt((static_cast<float>(ring) + 0.5F) / static_cast<float>(rings));
     const float turn = pi * (static_cast<float>(k % angles) + 0.5F) / static_cast<float>(angles);
     const float to_sun =
         cosine * sun_sine + std::sqrt(1 - cosine * cosine) * sun_across * std::cos(turn);

@@ -27,11 +27,6 @@ Vec3 irradiance_by_quadrature(const Sky& sky, Vec3 n) {
   return Vec3(sum * (4 * pi_d / (rows * columns)));
 }
 
-constexpr const char* open_irradiance = R"(
-#include "raster/light.glsl"
-vec4 evaluate(vec4 a, vec4 b) { return vec4(open_irradiance(a.xyz), 1.0); }
-)";
-
 TEST(SkyHarmonics, AreNearTheIntegralInEveryDirection) {
   const Sky sky;
   const std::array<Vec3, 9> h = sky_harmonics(sky);
