@@ -171,6 +171,7 @@ class Measures {
       return [&] { d.draw(width_, height_, 0, camera); };
     };
     const LandscapeDrawing best = drawing(512, 32);
+    const LandscapeDrawing none = drawing(0, 12);
     const Picture truth = picture_of(draw(best));
     struct Row {
       int along;
@@ -178,6 +179,7 @@ class Measures {
       LandscapeDrawing drawing;
       double decibels;
       std::vector<double> ratios = {};
+      std::vector<double> own_ratios = {};  // of what clouds add to the picture without them
       std::vector<double> times = {};
     };
     std::vector<Row> rows;
@@ -190,9 +192,12 @@ class Measures {
     std::vector<double> longest_times;
     for (int k = 0; k < 5; ++k) {
       longest_times.push_back(time_of(draw(best)));
+      const double without = time_of(draw(none));
       for (Row& row : rows) {
         row.times.push_back(time_of(draw(row.drawing)));
         row.ratios.push_back(longest_times.back() / row.times.back());
+        row.own_ratios.push_back((longest_times.back() - without) /
+                                 std::max(row.times.back() - without, 1e-3));
       }
     }
     std::string text = fmt::format(
@@ -201,9 +206,11 @@ class Measures {
         "source has it; the reference takes 512 steps and 32 to the sun, {:.0f} ms (the source's "
         "chapters 6.2 and 6.3: 869.6 ms, and 65.9 "
         "ms for 64 × 12).\n\n"
-        "| steps × to the sun | ms | of the reference's time | PSNR, dB |\n|---|---|---|---|\n",
+        "| steps × to the sun | ms | of the reference's time | of its time in clouds | PSNR, dB |\n"
+        "|---|---|---|---|---|\n",
         median(longest_times));
     double usual_ratio = 1;
+    double usual_own_ratio = 1;
     double usual_psnr = 0;
     double most = 0;
     for (const Row& row : rows) {
@@ -211,20 +218,21 @@ class Measures {
       const double ratio = median(row.ratios);
       if (row.along == 64 && row.to_sun == 12) {
         usual_ratio = ratio;
+        usual_own_ratio = median(row.own_ratios);
         usual_psnr = row.decibels;
       }
-      text += fmt::format("| {} × {} | {:.0f} | 1/{:.1f} | {:.1f} |\n", row.along, row.to_sun,
-                          median(row.times), ratio, row.decibels);
+      text +=
+          fmt::format("| {} × {} | {:.0f} | 1/{:.1f} | 1/{:.1f} | {:.1f} |\n", row.along,
+                      row.to_sun, median(row.times), ratio, median(row.own_ratios), row.decibels);
     }
-    const bool holds = usual_psnr > 35 && usual_ratio > 5;
-    return text + fmt::format(
-                      "\nThe source found 64 × 12 hardly to be told from the reference at 1/13.2 "
-                      "of its time. Here: {:.1f} dB (the best of the table: {:.1f}) at 1/{:.1f} of "
-                      "its time. The finding {}.\n\n",
-                      usual_psnr, most, usual_ratio,
-                      holds ? "holds: above 35 dB a difference is hard to see, and the time "
-                              "falls by a large factor, the land and the air being the rest"
-                            : "does not hold here");
+    const bool holds = usual_psnr > 35 && usual_own_ratio > 8;
+    return text +
+           fmt::format(
+               "\nThe source found 64 × 12 hardly to be told from the reference at 1/13.2 "
+               "of its time. Here: {:.1f} dB (the best of the table: {:.1f}) at 1/{:.1f} of "
+               "its time, and 1/{:.1f} of what it spends in clouds. The finding {}.\n\n",
+               usual_psnr, most, usual_ratio, usual_own_ratio,
+               holds ? "holds: above 35 dB a difference is hard to see" : "does not hold here");
   }
 
   std::string fast() {
