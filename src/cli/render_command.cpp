@@ -133,19 +133,9 @@ class RenderRun {
            (static_cast<double>(film_.width()) * film_.height());
   }
 
-  /// Land decides the exposure, not the sky.
-  static std::vector<float> metering(const Image& image) {
-    const int cover = image.find("A");
-    std::vector<float> weights;
-    for (int y = 0; y < image.height; ++y)
-      for (int x = 0; x < image.width; ++x)
-        weights.push_back(0.12F + 0.88F * image.at(x, y, cover));
-    return weights;
-  }
-
   void write_one(const std::string& path, const Image& image) const {
     if (extension_of(path) == ".png") {
-      write_png(path, display_image(image, scene_.picture, metering(image)),
+      write_png(path, display_image(image, scene_.picture, land_weights(image)),
                 {.bits = 8, .srgb = true, .dither = true});
       return;
     }

@@ -35,8 +35,8 @@ std::vector<Vec4> evaluate_shader(std::string_view body, std::span<const Vec4> a
   if (a.empty()) return {};
   const ShaderDialect dialect = gpu_info().dialect;
   const std::string whole = "#include \"gpu/evaluate.frag.glsl\"\n" + std::string(body);
-  const GpuProgram program(assemble_shader("gpu/full_screen.vert.glsl", dialect),
-                           assemble_shader_text("evaluate", whole, dialect, defines));
+  const GpuProgram program =
+      full_screen_program(assemble_shader_text("evaluate", whole, dialect, defines));
   const int count = static_cast<int>(a.size());
   const int width = std::min(count, row_length);
   const int height = (count + width - 1) / width;

@@ -106,6 +106,13 @@ GpuTexture::GpuTexture(int width, int height, const TextureSettings& settings)
       width_(width),
       height_(height),
       settings_(settings) {
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  if (std::max(width, height) > largest)
+    throw Error(ErrorKind::limit,
+                fmt::format("a picture of {} x {} pixels is more than this graphics driver draws: "
+                            "at most {} on a side",
+                            width, height, largest));
   if (settings_.levels == 0) settings_.levels = all_levels(width, height);
   const GLenum target = this->target();
   glBindTexture(target, id());

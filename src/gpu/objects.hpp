@@ -232,6 +232,11 @@ class GpuVertices {
   gl::Name<gl::VertexArrayKind> id_;
 };
 
+/// A program that computes each pixel of a target by a fragment shader, for `draw_full_screen`: of
+/// the path of a shader file, or of a text. In the current driver's dialect. Throws as GpuProgram.
+GpuProgram full_screen_program(std::string_view fragment);
+GpuProgram full_screen_program(const ShaderText& fragment);
+
 /// Draws one triangle over the whole target: the vertex shader is "gpu/full_screen.vert.glsl".
 void draw_full_screen();
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "gpu/context.hpp"
 #include "gpu/objects.hpp"
 
 namespace wold {
@@ -145,6 +146,14 @@ void GpuProgram::set(const char* name, std::span<const Mat4> v) const {
 }
 void GpuProgram::set(const char* name, std::span<const std::uint32_t> v) const {
   if (!v.empty()) glUniform1uiv(location(name), count_of(v.size()), v.data());
+}
+
+GpuProgram full_screen_program(const ShaderText& fragment) {
+  return {assemble_shader("gpu/full_screen.vert.glsl", gpu_info().dialect), fragment};
+}
+
+GpuProgram full_screen_program(std::string_view fragment) {
+  return full_screen_program(assemble_shader(fragment, gpu_info().dialect));
 }
 
 }  // namespace wold

@@ -227,6 +227,22 @@ float measured_exposure(const Image& linear, std::span<const float> weights) {
   return static_cast<float>(std::log2(metered_grey) - histogram.trimmed_mean(0.05, 0.95));
 }
 
+std::vector<float> land_weights(const Image& linear) {
+  const int cover = linear.find("A");
+  std::vector<float> weights;
+  weights.reserve(static_cast<std::size_t>(linear.width) * static_cast<std::size_t>(linear.height));
+  for (int y = 0; y < linear.height; ++y)
+    for (int x = 0; x < linear.width; ++x)
+      weights.push_back(0.12F + 0.88F * linear.at(x, y, cover));
+  return weights;
+}
+
+ToneMapping at_exposure(ToneMapping mapping, float stops) {
+  mapping.auto_exposure = false;
+  mapping.exposure = stops;
+  return mapping;
+}
+
 float exposure_of(const Image& linear, const ToneMapping& mapping, std::span<const float> weights) {
   return mapping.exposure + (mapping.auto_exposure ? measured_exposure(linear, weights) : 0.0F);
 }

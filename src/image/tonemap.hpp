@@ -25,6 +25,7 @@
 // part of the picture counts less, as in the metering of a camera.
 
 #include <span>
+#include <vector>
 
 #include "base/parameters.hpp"
 #include "base/vec.hpp"
@@ -56,9 +57,16 @@ inline constexpr float metered_grey = 0.125F;
 /// none is left.
 float measured_exposure(const Image& linear, std::span<const float> weights = {});
 
+/// Weights by which land decides the exposure and not the sky, of a picture whose channel A is the
+/// part that is surface.
+std::vector<float> land_weights(const Image& linear);
+
 /// The exposure in stops that `mapping` asks for: measured, if so, plus its own.
 float exposure_of(const Image& linear, const ToneMapping& mapping,
                   std::span<const float> weights = {});
+
+/// The same mapping with an exposure that is known, in stops.
+ToneMapping at_exposure(ToneMapping mapping, float stops);
 
 /// A picture with R, G, B, opaque, for a display, sRGB encoded, in [0, 1], to be
 /// written with write_png {.bits = 8, .srgb = true, .dither = true}.

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "gpu/context.hpp"
 #include "render/film.hpp"
 
 namespace wold {
@@ -42,12 +41,6 @@ void in_white_luminances(Image& image) {
       for (int c = 0; c < 3; ++c) image.at(x, y, c) /= white_luminance;
 }
 
-GpuProgram full_screen(const char* fragment) {
-  const ShaderDialect dialect = gpu_info().dialect;
-  return GpuProgram(assemble_shader("gpu/full_screen.vert.glsl", dialect),
-                    assemble_shader(fragment, dialect));
-}
-
 }  // namespace
 
 Description<PictureQuality> describe(const PictureQuality&) {
@@ -61,22 +54,13 @@ Description<PictureQuality> describe(const PictureQuality&) {
            "Size of the clouds' picture against the whole.");
 }
 
-std::vector<float> land_weights(const Image& image) {
-  const int cover = image.find("A");
-  std::vector<float> weights;
-  weights.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) weights.push_back(0.12F + 0.88F * image.at(x, y, cover));
-  return weights;
-}
-
 PictureDrawing::PictureDrawing(SceneLight& light, const PictureQuality& quality)
     : light_(light),
       sky_(light.sky()),
       quality_(quality),
-      resolve_(full_screen("raster/resolve.frag.glsl")),
-      display_(full_screen("raster/display.frag.glsl")),
-      copy_(full_screen("raster/copy.frag.glsl")) {
+      resolve_(full_screen_program("raster/resolve.frag.glsl")),
+      display_(full_screen_program("raster/display.frag.glsl")),
+      copy_(full_screen_program("raster/copy.frag.glsl")) {
   use_reversed_depth();
 }
 

@@ -82,7 +82,4 @@ class PictureDrawing {
   bool fresh_ = true;  // the history shows nothing
 };
 
-/// How much each pixel of a picture with an A channel counts in metering: land decides, not sky.
-std::vector<float> land_weights(const Image& image);
-
 }  // namespace wold

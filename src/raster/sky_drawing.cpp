@@ -8,19 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "gpu/context.hpp"
 #include "raster/scene_light.hpp"
 #include "sky/air_view.hpp"
 
 namespace wold {
 
 namespace {
-
-GpuProgram full_screen(const char* fragment) {
-  const ShaderDialect dialect = gpu_info().dialect;
-  return GpuProgram(assemble_shader("gpu/full_screen.vert.glsl", dialect),
-                    assemble_shader(fragment, dialect));
-}
 
 GpuTexture height_texture(const std::vector<LightInAir>& light) {
   std::vector<float> texels;
@@ -78,7 +71,8 @@ void apply_picture(const GpuProgram& program, const DrawView& view, const GpuTex
   program.set("nearest", view.nearest);
 }
 
-SkyDrawing::SkyDrawing(const Sky& sky) : composite_(full_screen("raster/composite.frag.glsl")) {
+SkyDrawing::SkyDrawing(const Sky& sky)
+    : composite_(full_screen_program("raster/composite.frag.glsl")) {
   set_sky(sky);
 }
 
@@ -107,7 +101,7 @@ void SkyDrawing::apply_air(const GpuProgram& program, int first_unit) const {
 }
 
 void SkyDrawing::draw_clouds(const Frame& frame, int width, int height) {
-  if (!cloud_program_) cloud_program_ = full_screen("raster/clouds.frag.glsl");
+  if (!cloud_program_) cloud_program_ = full_screen_program("raster/clouds.frag.glsl");
   const auto scaled = [&](int size) {
     return std::max(1, static_cast<int>(std::lround(static_cast<float>(size) * frame.cloud_scale)));
   };

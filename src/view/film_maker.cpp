@@ -61,10 +61,8 @@ Image traced(Viewer& viewer, const FilmSettings& film, Progress& progress) {
 void write_frame(const std::string& name, const Image& image, const ToneMapping& tone,
                  float stops) {
   if (extension_of(name) == ".exr") return write_exr(name, image);
-  ToneMapping fixed = tone;
-  fixed.auto_exposure = false;
-  fixed.exposure = stops;
-  write_png(name, display_image(image, fixed), {.bits = 8, .srgb = true, .dither = true});
+  write_png(name, display_image(image, at_exposure(tone, stops)),
+            {.bits = 8, .srgb = true, .dither = true});
 }
 
 std::vector<float> stops_at_keys(Viewer& viewer, const SkySettings& sky, const CameraPath& path,

@@ -22,10 +22,7 @@ ImTextureID id_of(const GpuTexture& texture) {
 }  // namespace
 
 void TracedPanel::set(const Image& image, const ToneMapping& mapping, float stops) {
-  ToneMapping as_shown = mapping;
-  as_shown.auto_exposure = false;
-  as_shown.exposure = stops;
-  const Image display = display_image(image, as_shown);
+  const Image display = display_image(image, at_exposure(mapping, stops));
   std::vector<std::uint8_t> texels;
   texels.reserve(4 * static_cast<std::size_t>(display.width) *
                  static_cast<std::size_t>(display.height));

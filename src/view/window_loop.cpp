@@ -114,9 +114,7 @@ class WindowLoop {
     const FramePattern pattern(settings_.shots);
     int number = 1;
     while (std::filesystem::exists(pattern.name(number))) ++number;
-    ToneMapping tone = viewer.tone();
-    tone.auto_exposure = false;
-    tone.exposure = viewer.exposure();
+    const ToneMapping tone = at_exposure(viewer.tone(), viewer.exposure());
     write_png(pattern.name(number), display_image(viewer.picture().linear_image(), tone),
               {.bits = 8, .srgb = true, .dither = true});
     screen.messages().notice("saved " + pattern.name(number));

@@ -104,7 +104,9 @@ TEST_F(Gpu, ATextureBeyondTheDriverIsALimit) {
     const GpuTexture texture(1 << 20, 1 << 20, {});
     FAIL();
   } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
     EXPECT_NE(error.message().find("1048576"), std::string::npos);
+    EXPECT_NE(error.message().find("at most"), std::string::npos);
   }
 }
 

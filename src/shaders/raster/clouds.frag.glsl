@@ -1,5 +1,6 @@
 // Clouds before what is drawn: light, and what is left of the light behind.
 #include "raster/air.glsl"
+#include "raster/interleaved_noise.glsl"
 #include "raster/picture.glsl"
 #include "sky/clouds.glsl"
 
@@ -14,10 +15,6 @@ in vec2 screen_place;
 out vec4 result;
 
 const float farthest_cloud = 1.2e5;  // m
-
-float interleaved_noise(vec2 pixel) {
-  return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
-}
 
 void main() {
   vec3 ray = view_ray(screen_place);

@@ -1,5 +1,6 @@
 // To the screen: exposure, tone map, sRGB, and noise of half a step of eight bits.
 #include "image/tonemap.glsl"
+#include "raster/interleaved_noise.glsl"
 
 uniform sampler2D picture;
 uniform float exposure;  // factor
@@ -7,10 +8,6 @@ uniform int tone_map;
 
 in vec2 screen_place;
 out vec4 result;
-
-float interleaved_noise(vec2 pixel) {
-  return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
-}
 
 void main() {
   vec3 light = texture(picture, screen_place).rgb * exposure;

@@ -1,4 +1,5 @@
 // What stands between a surface and the sun, or the sky (raster/shadow_maps.hpp, canopy_shade.hpp).
+#include "raster/interleaved_noise.glsl"
 #include "raster/terrain_shadow.glsl"
 #include "raster/view.glsl"
 
@@ -19,11 +20,6 @@ uniform sampler2D canopy_map;
 uniform vec4 canopy_place;     // texture = zw + xy · place; all 0: no crowns
 uniform sampler2D undergrowth_map;  // the same of small plants about the eye
 uniform vec4 undergrowth_place;
-
-// J. Jimenez, "Next generation post processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014.
-float interleaved_noise(vec2 pixel) {
-  return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715))));
-}
 
 // Of a cascade: 1 where the sun is seen.
 float shadow_tap(int cascade, vec3 at) {
