@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -125,6 +126,10 @@ class OffscreenRun {
       draw_frames(viewer, progress);
     report(viewer, gpu, loading, since(drawing));
     delivery_.check();
+    if (interrupted_)
+      throw Error(ErrorKind::cancelled,
+                  fmt::format("interrupted; the picture so far, of {} frames, is in {}", frames_,
+                              fmt::join(outputs_, " and ")));
   }
 
  private:
@@ -182,12 +187,12 @@ class OffscreenRun {
       shown.emplace(viewer, *interface);
     }
     viewer.settle();
-    {
+    try {
       const ProgressStage stage(progress, "drawing", count, "frames");
-      for (int k = 0; k < count; ++k) {
+      while (frames_ < count) {
         Controls controls;
         controls.seconds = 1.0 / 60;
-        if (!replayed_.empty()) controls = replayed_[static_cast<std::size_t>(k)];
+        if (!replayed_.empty()) controls = replayed_[static_cast<std::size_t>(frames_)];
         GpuTimer timer;
         timer.begin();
         if (shown)
@@ -195,10 +200,14 @@ class OffscreenRun {
         else
           viewer.frame(controls);
         milliseconds_.push_back(timer.end());
+        ++frames_;
         progress.advance();
       }
+    } catch (const Error& error) {
+      // A still of fewer frames is a still.
+      if (error.kind() != ErrorKind::cancelled || options_.screenshot.empty()) throw;
+      interrupted_ = true;
     }
-    frames_ = count;
     if (!options_.screenshot.empty()) write_still(viewer, options_.interface ? &screen : nullptr);
   }
 
@@ -206,9 +215,7 @@ class OffscreenRun {
     const Image image = viewer.picture().linear_image();
     const std::string written = delivery_.write(options_.screenshot, [&](const std::string& path) {
       if (extension_of(path) == ".exr") return write_exr(path, image);
-      ToneMapping tone = viewer.tone();
-      tone.auto_exposure = false;
-      tone.exposure = viewer.exposure();
+      const ToneMapping tone = at_exposure(viewer.tone(), viewer.exposure());
       const Image display = screen != nullptr ? shown_image(*screen) : display_image(image, tone);
       write_png(path, display, {.bits = 8, .srgb = true, .dither = screen == nullptr});
     });
@@ -248,6 +255,7 @@ class OffscreenRun {
   std::vector<double> milliseconds_;
   std::vector<std::string> outputs_;
   int frames_ = 0;
+  bool interrupted_ = false;
   Delivery delivery_;
 };
 

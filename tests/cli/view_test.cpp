@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "image/io.hpp"
@@ -33,6 +34,16 @@ TEST(View, WritesAPictureAndTellsHowFastItWas) {
     return picture.image.at(48, y, 2) / std::max(picture.image.at(48, y, 0), 1e-3F);
   };
   EXPECT_GT(blue_over_red(2), 1.05F * blue_over_red(51));
+}
+
+TEST(View, KeepsThePictureSoFarWhenInterrupted) {
+  const Workplace place;
+  const Outcome run = place.interrupt(
+      {"view", "scene.toml", "--screenshot", "still.png", "--samples", "60000", "--quality", "low"},
+      SIGINT, "drawing");
+  EXPECT_EQ(run.exit_code, 130) << run.err;
+  EXPECT_NE(run.err.find("is in still.png"), std::string::npos) << run.err;
+  EXPECT_EQ(read_picture(place.path("still.png").string()).image.width, 96);
 }
 
 TEST(View, FliesARecordedSession) {
