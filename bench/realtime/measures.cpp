@@ -235,62 +235,73 @@ class Measures {
                holds ? "holds: above 35 dB a difference is hard to see" : "does not hold here");
   }
 
+  /// What a pixel shows on the mean over itself.
+  Picture converged(const LandscapeDrawing& best, float time, const Camera* camera) const {
+    constexpr int rays_across = 4;
+    const Image image = landscape_picture(best, width_, height_, time, camera, rays_across);
+    Picture out;
+    for (int y = height_ - 1; y >= 0; --y)
+      for (int x = 0; x < width_; ++x) {
+        for (int c = 0; c < 3; ++c) out.push_back(image.at(x, y, c));
+        out.push_back(1);
+      }
+    return out;
+  }
+
   std::string fast() {
     std::cerr << "Fast and faithful\n";
     const LandscapeDrawing faithful(landscape_);
     const LandscapeDrawing best(reference());
     std::string text =
         "### Fast and faithful\n\n"
-        "Medians of frames drawn in turn (of the fast one: of means of four frames, for it shares "
-        "work "
-        "between frames); PSNR against the faithful shader with four times the "
-        "marching steps, each a quarter as long, 64 × 16 steps through air and 512 × 32 through "
-        "clouds.\n\n"
+        "Medians of 12 frames drawn in turn, after 60 of the fast one (it shares work between "
+        "frames). PSNR against the converged picture: the mean over each pixel of 16 rays of the "
+        "faithful shader with four times the marching steps, each a quarter as long, 64 × 16 "
+        "steps through air and 512 × 32 through clouds.\n\n"
         "| camera | faithful, ms | fast, ms | ratio | faithful, dB | fast, dB |\n"
         "|---|---|---|---|---|---|\n";
-    const auto compare = [&](const char* name, const std::function<void(float)>& a,
-                             const std::function<void(float)>& b,
-                             const std::function<void(float)>& c, float step) {
-      std::vector<double> slow;
-      std::vector<double> quick;
+    double least_ratio = 1e9;
+    double least_gain = 1e9;
+    const auto compare = [&](const char* name, FastLandscapeDrawing& quick, const Camera* camera,
+                             float step) {
+      const auto draw = [&](auto& drawing, float time) {
+        if (camera != nullptr)
+          drawing.draw(width_, height_, time, *camera);
+        else
+          drawing.draw(width_, height_, time);
+      };
+      std::vector<double> slow_times;
+      std::vector<double> quick_times;
       std::vector<double> ratios;
-      constexpr int warm = 6;
-      constexpr int measured = 7;
-      float time = 0;
-      for (int k = 0; k < warm + measured; ++k) {
-        time = 20 + step * static_cast<float>(k);
-        // Four frames: of an eye that stands, the fast one draws land once in four.
-        double four = 0;
-        for (int i = 0; i < 4; ++i) {
-          time += 0.25F * step;
-          four += time_of([&] { b(time); });
-        }
+      constexpr int warm = 60;
+      constexpr int measured = 12;
+      float time = 20;
+      for (int k = 0; k < warm + measured; ++k, time += step) {
+        const double quick_time = time_of([&] { draw(quick, time); });
         if (k < warm) continue;
-        quick.push_back(four / 4);
-        slow.push_back(time_of([&] { a(time); }));
-        ratios.push_back(slow.back() / quick.back());
+        quick_times.push_back(quick_time);
+        slow_times.push_back(time_of([&] { draw(faithful, time); }));
+        ratios.push_back(slow_times.back() / quick_time);
       }
-      const Picture seen = picture_of([&] { b(time); });
-      const Picture plain = picture_of([&] { a(time); });
-      const Picture truth = picture_of([&] { c(time); });
-      text +=
-          fmt::format("| {} | {:.0f} | {:.0f} | {:.1f} | {:.1f} | {:.1f} |\n", name, median(slow),
-                      median(quick), median(ratios), psnr(plain, truth), psnr(seen, truth));
+      const double seen =
+          psnr(picture_of([&] { draw(quick, time); }), converged(best, time, camera));
+      const double plain =
+          psnr(picture_of([&] { draw(faithful, time); }), converged(best, time, camera));
+      least_ratio = std::min(least_ratio, median(ratios));
+      least_gain = std::min(least_gain, seen - plain);
+      text += fmt::format("| {} | {:.0f} | {:.0f} | {:.1f} | {:.1f} | {:.1f} |\n", name,
+                          median(slow_times), median(quick_times), median(ratios), plain, seen);
     };
-    const auto flying = [&](auto& d) { return [&](float time) { d.draw(width_, height_, time); }; };
     for (const float tilt : {static_tilt, -6.0F}) {
       FastLandscapeDrawing quick(landscape_);
       const Camera camera = looking(tilt);
-      const auto standing = [&](auto& d) {
-        return [&](float) { d.draw(width_, height_, 20, camera); };
-      };
-      compare(tilt > 0 ? "stands, much sky" : "stands, much land", standing(faithful),
-              standing(quick), standing(best), 0);
+      compare(tilt > 0 ? "stands, much sky" : "stands, much land", quick, &camera, 0);
     }
     FastLandscapeDrawing quick(landscape_);
-    compare("flies, 30 frames per second", flying(faithful), flying(quick), flying(best),
-            4.0F / 30);
-    return text + "\n";
+    compare("flies, 30 frames per second", quick, nullptr, 1.0F / 30);
+    return text +
+           fmt::format("\nAt least {:.1f} times as fast, and in PSNR {:.1f} dB {} or more.\n\n",
+                       least_ratio, std::abs(least_gain), least_gain < 0 ? "below" : "above");
   }
 
   /// Mean over pixels of the variance over frames of a pan, of luminance carried to the middle one.

@@ -9,6 +9,7 @@
 
 #include "gpu/context.hpp"
 #include "gpu/objects.hpp"
+#include "realtime/fast_cloud_tables.hpp"
 #include "realtime/fast_eye.hpp"
 #include "realtime/fast_passes.hpp"
 #include "realtime/fast_rings.hpp"
@@ -19,12 +20,8 @@ namespace wold {
 namespace {
 
 constexpr int view_texels = 7;
-constexpr int shade_levels = 3;
-constexpr int shade_size = 512;
-constexpr double shade_cell = 50;  // m
-constexpr int still_turns = 4;     // of the clouds, from land to land
-constexpr float least_share_still = 0.12F;
-constexpr float least_share = 0.5F;
+constexpr float most_samples_still = 32;  // that a pixel is the mean of
+constexpr float most_samples = 4;
 
 int power_of_two_above(double x) {
   int n = 1;
@@ -51,13 +48,13 @@ struct FastLandscapeDrawing::State {
   void bake(const LandscapeEye& eye);
   void bake_heights(const std::vector<RingStrip>& strips);
   void bake_horizons(const std::vector<RingStrip>& strips);
-  void bake_shades(const std::vector<RingStrip>& strips);
   void draw_view(const LandscapeEye& eye, int width, int height);
   void draw_sky();
-  void draw_land(int width, int height);
-  void draw_clouds(int width, int height);
+  void draw_quarters(int width, int height, int count);
+  void draw_quarter(int width, int height, bool same_view);
   void resize(int width, int height);
   void bind_all(const GpuProgram& program) const;
+  bool has_clouds() const { return knobs.cloud_steps > 0 && knobs.cloud_coverage > 0; }
   const GpuTarget& view() const { return views_[static_cast<std::size_t>(newest_view_)]; }
   const GpuTarget& last_view() const { return views_[static_cast<std::size_t>(1 - newest_view_)]; }
 
@@ -70,14 +67,12 @@ struct FastLandscapeDrawing::State {
 
   std::optional<RingSquares> squares;
   std::optional<RingSquares> horizon_squares;
-  RingSquares shade_squares{shade_size, shade_levels, shade_cell};
   int horizon_first = 0;
+  std::optional<FastCloudTables> clouds;
   RingTarget ring_target;
   GpuTexture heights;
   GpuTexture maxima;
   GpuTexture horizons;
-  GpuTexture shades;
-  DVec2 shade_middle{0};
 
   GpuTarget transmittances;
   GpuTarget multiples;
@@ -85,14 +80,14 @@ struct FastLandscapeDrawing::State {
   std::array<GpuTarget, 2> views_;
   int newest_view_ = 0;
   GpuTarget land;
-  GpuTarget new_clouds;
-  std::array<GpuTarget, 2> cloud_means;
+  GpuTarget clouded;
+  std::array<GpuTarget, 2> means;
   int newest_mean = 0;
 
   std::optional<LandscapeEye> last;
   Vec3 sun{0, 0, 1};
   int frames = 0;  // since the last cut
-  int number = 0;  // of all cloud passes
+  int number = 0;  // of quarters drawn
   bool still = false;
   float scale = 1;
   int next_horizon = 0;
@@ -109,8 +104,6 @@ FastLandscapeDrawing::State::State(const Landscape& landscape, const FastLandsca
       24, 128, std::array{PixelFormat::rgba16f, PixelFormat::rgba16f, PixelFormat::rgba16f}, false);
   transmittances = GpuTarget(256, 64, std::array{PixelFormat::rgba32f}, false);
   multiples = GpuTarget(128, 32, std::array{PixelFormat::rgba32f}, false);
-  shades = GpuTexture(shade_size, shade_size,
-                      {.format = PixelFormat::rg16f, .repeat = true, .layers = shade_levels});
   make_tables();
 }
 
@@ -129,11 +122,8 @@ void FastLandscapeDrawing::State::make_rings(int width) {
   if (squares && squares->size() == size) return;
   const double cell = 0.5 * finest;
   const auto levels_to = [&](int texels, double first) {
-    int n = 1;
-    while ((0.5 * texels - 12) * std::ldexp(first, n - 1) <
-           static_cast<double>(knobs.max_rendering_distance))
-      ++n;
-    return n;
+    return RingSquares::levels_over(texels, first,
+                                    static_cast<double>(knobs.max_rendering_distance));
   };
   squares.emplace(size, levels_to(size, cell), cell);
   horizon_first = 0;
@@ -141,6 +131,7 @@ void FastLandscapeDrawing::State::make_rings(int width) {
   const int horizon_size = size / 2;
   const double horizon_cell = std::ldexp(cell, horizon_first);
   horizon_squares.emplace(horizon_size, levels_to(horizon_size, horizon_cell), horizon_cell);
+  if (has_clouds()) clouds.emplace(std::clamp(size / 4, 128, 256));
   const int halvings = static_cast<int>(std::lround(std::log2(size))) - 2;
   heights = GpuTexture(
       size, size, {.format = PixelFormat::rgba32f, .repeat = true, .layers = squares->levels()});
@@ -168,7 +159,8 @@ void FastLandscapeDrawing::State::bind_all(const GpuProgram& program) const {
   bind("ring_heights", heights);
   bind("ring_maxima", maxima);
   bind("ring_horizons", horizons);
-  bind("cloud_shades", shades);
+  if (clouds) clouds->bind(program, unit);
+  unit += 2;
   bind("frame_view", view().color());
   bind("last_view", last_view().color());
   bind("air_transmittances", transmittances.color());
@@ -189,9 +181,6 @@ void FastLandscapeDrawing::State::bind_all(const GpuProgram& program) const {
     program.set("ring_eye", Vec2(last->place));
     program.set("iTime", last->time);
   }
-  program.set("shade_cell", static_cast<float>(shade_cell));
-  program.set("shade_levels", shade_levels);
-  program.set("shade_middle", Vec2(shade_middle));
   program.set("sun_now", sun);
 }
 
@@ -211,17 +200,6 @@ void FastLandscapeDrawing::State::bake_horizons(const std::vector<RingStrip>& st
   }
 }
 
-void FastLandscapeDrawing::State::bake_shades(const std::vector<RingStrip>& strips) {
-  if (strips.empty()) return;
-  const GpuProgram& program = passes[FastPass::shades];
-  bind_all(program);
-  for (const RingStrip& s : strips) {
-    program.set("strip_low", s.low);
-    program.set("strip_cell", static_cast<float>(shade_squares.cell(s.level)));
-    ring_target.draw(shades, s.level, 0, shade_squares.rects(s));
-  }
-}
-
 void FastLandscapeDrawing::State::bake(const LandscapeEye& eye) {
   const bool sun_moves = knobs.day_speed != 0;
   sun = sun_at(knobs, eye.time);
@@ -232,14 +210,12 @@ void FastLandscapeDrawing::State::bake(const LandscapeEye& eye) {
     changed.push_back(horizon_squares->whole(next_horizon));
   }
   bake_horizons(changed);
-  if (!(knobs.cloud_steps > 0 && knobs.cloud_coverage > 0)) return;
+  if (!clouds) return;
   const double rise = static_cast<double>(std::max(sun.z, 0.05F));
   const DVec2 wind(static_cast<double>(knobs.wind_speed) * static_cast<double>(eye.time), 0);
   const DVec2 to_layer = DVec2(sun.x, sun.y) / rise * static_cast<double>(knobs.clouds_height);
-  shade_middle = eye.place - wind + to_layer;
-  changed = shade_squares.move_to(shade_middle);
-  if (sun_moves) changed.push_back(shade_squares.whole(next_horizon % shade_levels));
-  bake_shades(changed);
+  clouds->bake(passes, ring_target, eye.place - wind, to_layer, sun_moves,
+               [&](const GpuProgram& program) { bind_all(program); });
 }
 
 void FastLandscapeDrawing::State::draw_view(const LandscapeEye& eye, int width, int height) {
@@ -264,66 +240,58 @@ void FastLandscapeDrawing::State::draw_sky() {
   draw_full_screen();
 }
 
-void FastLandscapeDrawing::State::draw_land(int width, int height) {
-  draw_sky();
-  const GpuProgram& program = passes[FastPass::land];
-  bind_all(program);
-  program.set("iResolution", Vec3(width, height, 1));
+void FastLandscapeDrawing::State::resize(int width, int height) {
+  if (means[0] && means[0].width() == width && means[0].height() == height) return;
+  frames = 0;
+  for (GpuTarget* target : {&land, &clouded})
+    *target = GpuTarget((width + 1) / 2, (height + 1) / 2, std::array{PixelFormat::rgba32f}, false,
+                        TextureFilter::nearest);
+  for (GpuTarget& mean : means)
+    mean = GpuTarget(width, height, std::array{PixelFormat::rgba16f}, false);
+}
+
+void FastLandscapeDrawing::State::draw_quarter(int width, int height, bool same_view) {
+  constexpr std::array turns = {IVec2(0, 0), IVec2(1, 1), IVec2(1, 0), IVec2(0, 1)};
+  const int round = number / 4;
+  // Evenly spread (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
+  const auto part = [&](double step) { return static_cast<float>(std::fmod(step * round, 1.0)); };
+  const Vec2 shift = Vec2(part(0.7548776662466927), part(0.5698402909980532));
+  const auto begin = [&](FastPass pass) -> const GpuProgram& {
+    const GpuProgram& program = passes[pass];
+    bind_all(program);
+    program.set("iResolution", Vec3(width, height, 1));
+    program.set("turn", turns[static_cast<std::size_t>(number % 4)]);
+    program.set("shift", round == 0 ? Vec2(0) : shift - 0.5F);
+    return program;
+  };
+  const auto read = [](const GpuProgram& program, const char* name, const GpuTarget& target,
+                       int unit) {
+    program.set(name, unit);
+    target.color().bind(unit);
+  };
+  begin(FastPass::land);
   land.bind();
   draw_full_screen();
-}
-
-void FastLandscapeDrawing::State::resize(int width, int height) {
-  if (land && land.width() == width && land.height() == height) return;
-  still = false;
-  land = GpuTarget(width, height, std::array{PixelFormat::rgba32f}, false);
-  new_clouds = GpuTarget((width + 1) / 2, (height + 1) / 2,
-                         std::array{PixelFormat::rgba16f, PixelFormat::r32f}, false);
-}
-
-void FastLandscapeDrawing::State::draw_clouds(int width, int height) {
-  constexpr std::array turns = {IVec2(0, 0), IVec2(1, 1), IVec2(1, 0), IVec2(0, 1)};
-  const IVec2 turn = turns[static_cast<std::size_t>(number % 4)];
-  const GpuProgram& march = passes[FastPass::clouds];
-  bind_all(march);
-  march.set("iResolution", Vec3(width, height, 1));
-  march.set("turn", turn);
-  const double round = std::floor(0.25 * number);
-  march.set("start_turn", static_cast<float>(std::fmod(0.618033988749895 * round, 1.0)));
-  march.set("still", still);
-  march.set("land_picture", 12);
-  land.color().bind(12);
-  new_clouds.bind();
+  const GpuProgram& march = begin(FastPass::clouds);
+  march.set("start_turn", part(0.618033988749895));
+  read(march, "land_picture", land, 13);
+  clouded.bind();
   draw_full_screen();
-
-  GpuTarget& target = cloud_means[static_cast<std::size_t>(1 - newest_mean)];
-  if (!target || target.width() != width || target.height() != height)
-    target = GpuTarget(width, height, std::array{PixelFormat::rgba16f}, false);
-  const GpuTarget& before = cloud_means[static_cast<std::size_t>(newest_mean)];
-  const GpuProgram& resolve = passes[FastPass::resolve];
-  bind_all(resolve);
-  resolve.set("iResolution", Vec3(width, height, 1));
-  resolve.set("turn", turn);
-  resolve.set("has_history", frames > 0);
+  const GpuProgram& resolve = begin(FastPass::resolve);
+  resolve.set("has_history", frames > 0 || same_view);
+  resolve.set("same_view", same_view);
   resolve.set("still", still);
-  // Until all four have been new, the history is made of what lies between.
-  const int rounds = frames / 4;
-  resolve.set("share", std::max(still ? least_share_still : least_share,
-                                1.0F / static_cast<float>(rounds + 1)));
-  resolve.set("new_clouds", 12);
-  new_clouds.color(0).bind(12);
-  resolve.set("new_distances", 13);
-  new_clouds.color(1).bind(13);
-  resolve.set("land_picture", 15);
-  land.color().bind(15);
-  if (before) {
-    resolve.set("cloud_history", 14);
-    before.color().bind(14);
-  }
-  target.bind();
-  draw_full_screen();
+  resolve.set("most_samples", still ? most_samples_still : most_samples);
+  read(resolve, "new_picture", clouded, 13);
+  read(resolve, "history", means[static_cast<std::size_t>(newest_mean)], 14);
   newest_mean = 1 - newest_mean;
+  means[static_cast<std::size_t>(newest_mean)].bind();
+  draw_full_screen();
   ++number;
+}
+
+void FastLandscapeDrawing::State::draw_quarters(int width, int height, int count) {
+  for (int k = 0; k < count; ++k) draw_quarter(width, height, k > 0);
   ++frames;
 }
 
@@ -344,32 +312,14 @@ void FastLandscapeDrawing::State::draw(int width, int height, const LandscapeEye
   bake(eye);
   // The eye moves on even where it stands: time has gone on.
   draw_view(eye, w, h);
-  // Before an eye that stands only the clouds' shade moves, slowly.
-  if (!still || frames % still_turns == 0) draw_land(w, h);
-  const bool clouds = knobs.cloud_steps > 0 && knobs.cloud_coverage > 0;
-  if (clouds && frames == 0) {
-    // All at once, at this one place.
-    number = 0;
-    for (int k = 0; k < 4; ++k) {
-      draw_clouds(w, h);
-      still = true;
-    }
-    frames = 1;
-  } else if (clouds) {
-    draw_clouds(w, h);
-  } else {
-    ++frames;
-  }
+  draw_sky();
+  if (frames == 0) number = 0;
+  draw_quarters(w, h, frames == 0 ? 4 : 1);
   const GpuProgram& show = passes[FastPass::show];
   bind_all(show);
   show.set("iResolution", Vec3(width, height, 1));
-  show.set("land_picture", 12);
-  land.color().bind(12);
-  show.set("has_history", clouds);
-  if (clouds) {
-    show.set("cloud_history", 14);
-    cloud_means[static_cast<std::size_t>(newest_mean)].color().bind(14);
-  }
+  show.set("history", 14);
+  means[static_cast<std::size_t>(newest_mean)].color().bind(14);
   glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(shown));
   glViewport(0, 0, width, height);
   draw_full_screen();

@@ -8,13 +8,18 @@
 //   accurate, and scalable dynamic height field rendering", I3D 2008). Only strips are baked anew
 //   when the eye moves.
 // - Shadows: what a march to the sun would find, baked per place with the distance at which it was
-//   found. Shade of clouds: baked in the air that drifts.
+//   found; marched anew at their edges. Shade of clouds: baked in the air that drifts.
 // - Air: tables of transmittance and of light scattered more than once; a table of the sky about
 //   the eye; few steps before land (Hillaire, "A scalable and production ready sky and atmosphere
 //   rendering technique", EGSR 2020).
-// - Clouds: a quarter of the pixels each frame, the rest from the frames before, carried along with
-//   eye and wind and held to what is near in the new ones (Karis, "High-quality temporal
-//   supersampling", SIGGRAPH 2014).
+// - Clouds: sunlight within them from a table that drifts with them
+// (realtime/fast_cloud_tables.hpp),
+//   but for the nearest of what shades a place.
+// - Pixels: a quarter of them each frame, each round through another place within the pixel; the
+// rest
+//   from the frames before, carried along with eye and wind and held to what is near in the new
+//   ones (Karis, "High-quality temporal supersampling", SIGGRAPH 2014). So edges and texture are
+//   smooth, and of a camera that stands the picture becomes the mean over each pixel.
 
 #include <memory>
 #include <optional>
@@ -45,7 +50,7 @@ class FastLandscapeDrawing {
   /// The same from a camera of the world's, whose place is measured from the terrain's middle.
   void draw(int width, int height, float time, const Camera& camera);
 
-  /// The next picture has nothing to do with the last: its clouds are made whole. Found out alone
+  /// The next picture has nothing to do with the last: all its pixels are new. Found out alone
   /// where the camera leaps or turns far, or time does.
   void cut();
   /// Pictures since the last cut, that one included.

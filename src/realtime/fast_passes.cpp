@@ -11,12 +11,15 @@ namespace {
 constexpr const char* before =
     "uniform vec3 iResolution;\nuniform float iTime;\nuniform vec4 iMouse;\n"
     "uniform vec3 sun_now;\n"
-    "uniform ivec2 strip_low;\nuniform float strip_cell;\nuniform int strip_level;\n";
+    "uniform ivec2 strip_low;\nuniform float strip_cell;\nuniform int strip_level;\n"
+    "uniform int strip_slice;\n";
 
 constexpr const char* includes =
     "\n#include \"landscape/fast_rings.glsl\"\n#include \"landscape/fast_view.glsl\"\n"
+    "#include \"landscape/fast_resolve.glsl\"\n"
     "#include \"landscape/fast_air.glsl\"\n#include \"landscape/fast_shade.glsl\"\n"
-    "#include \"landscape/fast_land.glsl\"\n#include \"landscape/fast_clouds.glsl\"\n"
+    "#include \"landscape/fast_cloud_light.glsl\"\n#include \"landscape/fast_land.glsl\"\n#include "
+    "\"landscape/fast_clouds.glsl\"\n"
     "#include \"landscape/fast_bake.glsl\"\n";
 
 const char* main_of(FastPass pass) {
@@ -38,6 +41,10 @@ const char* main_of(FastPass pass) {
       return "out vec2 made;\nvoid main() {\n"
              "  vec2 place = strip_place(textureSize(cloud_shades, 0).x);\n"
              "  made = vec2(baked_cloud_shade(place, sun_now), baked_cloud_cover(place));\n}\n";
+    case FastPass::cloud_lights:
+      return "out float made;\nvoid main() {\n"
+             "  made = baked_cloud_light(strip_place(textureSize(cloud_lights, 0).x),\n"
+             "                           slice_height(strip_slice), sun_now);\n}\n";
     case FastPass::flight_view:
     case FastPass::free_view:
       return "out vec4 made;\nvoid main() {\n"
@@ -48,17 +55,17 @@ const char* main_of(FastPass pass) {
              "  sky_texel(gl_FragCoord.xy, by_air, by_aerosol, passed);\n}\n";
     case FastPass::land:
       return "out vec4 made;\nvoid main() {\n"
-             "  made = fast_landscape(gl_FragCoord.xy, iResolution.xy, iTime);\n}\n";
+             "  vec2 pixel = new_pixel(ivec2(gl_FragCoord.xy), iResolution.xy);\n"
+             "  made = fast_landscape(pixel, iResolution.xy, iTime);\n}\n";
     case FastPass::clouds:
-      return "layout(location = 0) out vec4 made;\nlayout(location = 1) out float far_away;\n"
-             "void main() {\n"
-             "  ivec2 pixel = min(2 * ivec2(gl_FragCoord.xy) + turn, ivec2(iResolution.xy) - 1);\n"
-             "  float t = texelFetch(land_picture, pixel, 0).a;\n"
-             "  made = fast_clouds(vec2(pixel) + 0.5, iResolution.xy, t > 0.0 ? t : 1e9, iTime,\n"
-             "                     far_away);\n}\n";
+      return "out vec4 made;\nvoid main() {\n"
+             "  ivec2 cell = ivec2(gl_FragCoord.xy);\n"
+             "  made = behind_fast_clouds(texelFetch(land_picture, cell, 0),\n"
+             "                            new_pixel(cell, iResolution.xy), iResolution.xy,\n"
+             "                            iTime);\n}\n";
     case FastPass::resolve:
       return "out vec4 made;\nvoid main() {\n"
-             "  made = resolved_clouds(gl_FragCoord.xy, iResolution.xy, iTime);\n}\n";
+             "  made = resolved_picture(gl_FragCoord.xy, iResolution.xy, iTime);\n}\n";
     case FastPass::show:
       return "out vec4 made;\nvoid main() {\n"
              "  made = vec4(shown_landscape(gl_FragCoord.xy, iResolution.xy), 1.0);\n}\n";

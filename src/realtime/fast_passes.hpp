@@ -20,6 +20,7 @@ enum class FastPass {
   maxima,
   horizons,
   shades,
+  cloud_lights,
   flight_view,
   free_view,
   sky,

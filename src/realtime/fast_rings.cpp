@@ -31,6 +31,12 @@ int halved_down(int x, int halvings) {
 
 }  // namespace
 
+int RingSquares::levels_over(int size, double cell, double reach) {
+  int levels = 1;
+  while ((0.5 * size - margin) * std::ldexp(cell, levels - 1) < reach) ++levels;
+  return levels;
+}
+
 RingSquares::RingSquares(int size, int levels, double cell)
     : size_(size), cell_(cell), corners_(static_cast<std::size_t>(levels)) {}
 

@@ -31,6 +31,10 @@ struct RingRect {
 class RingSquares {
  public:
   static constexpr int slack = 4;
+  static constexpr int margin = 12;  ///< texels that shaders stay off the edge
+
+  /// Levels that reach so far (m) from an eye anywhere in the slack.
+  static int levels_over(int size, double cell, double reach);
 
   /// `size`: texels on a side, a power of two; `cell`: of level 0, m.
   RingSquares(int size, int levels, double cell);

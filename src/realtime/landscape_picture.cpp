@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "base/parallel.hpp"
 #include "gpu/context.hpp"
+#include "image/color.hpp"
 
 namespace wold {
 
@@ -99,26 +102,54 @@ void LandscapeDrawing::draw(int width, int height, float time, const Camera& cam
   draw(free_, width, height, time);
 }
 
+namespace {
+
+/// The inverse of what the shader shows, 1 - exp(-x) as sRGB.
+float light_of(float shown) {
+  return -std::log(1 - std::min(srgb_to_linear(std::clamp(shown, 0.0F, 1.0F)), 0.99999F));
+}
+
+/// R, G, B, A from the bottom up to an image of a factor fewer pixels each way.
+Image averaged(const std::vector<float>& values, int width, int height, int factor) {
+  const auto at = [&](int x, int y) {  // from the top
+    const auto row = static_cast<std::size_t>(factor * height - 1 - y);
+    return 4 * (row * static_cast<std::size_t>(factor * width) + static_cast<std::size_t>(x));
+  };
+  Image image(width, height, {"R", "G", "B"});
+  parallel_for(0, height, [&](int y) {
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c) {
+        if (factor == 1) {
+          const float value = values[at(x, y) + static_cast<std::size_t>(c)];
+          image.at(x, y, c) = std::clamp(value, 0.0F, 1.0F);
+          continue;
+        }
+        double sum = 0;
+        for (int j = 0; j < factor; ++j)
+          for (int i = 0; i < factor; ++i) {
+            const float value =
+                values[at(factor * x + i, factor * y + j) + static_cast<std::size_t>(c)];
+            sum += static_cast<double>(light_of(value));
+          }
+        image.at(x, y, c) =
+            linear_to_srgb(1 - std::exp(-static_cast<float>(sum / (factor * factor))));
+      }
+  });
+  return image;
+}
+
+}  // namespace
+
 Image landscape_picture(const LandscapeDrawing& drawing, int width, int height, float time,
-                        const Camera* camera) {
-  const GpuTarget target(width, height, std::array{PixelFormat::rgba32f},
-                         false);  // which ES can read, too
+                        const Camera* camera, int rays_across) {
+  const GpuTarget target(rays_across * width, rays_across * height,
+                         std::array{PixelFormat::rgba32f}, false);  // which ES can read, too
   target.bind();
   if (camera != nullptr)
-    drawing.draw(width, height, time, *camera);
+    drawing.draw(target.width(), target.height(), time, *camera);
   else
-    drawing.draw(width, height, time);
-  const std::vector<float> values = target.read();
-  Image image(width, height, {"R", "G", "B"});
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const std::size_t k =
-          4 * (static_cast<std::size_t>(height - 1 - y) * static_cast<std::size_t>(width) +
-               static_cast<std::size_t>(x));
-      for (int c = 0; c < 3; ++c)
-        image.at(x, y, c) = std::clamp(values[k + static_cast<std::size_t>(c)], 0.0F, 1.0F);
-    }
-  return image;
+    drawing.draw(target.width(), target.height(), time);
+  return averaged(target.read(), width, height, rays_across);
 }
 
 }  // namespace wold

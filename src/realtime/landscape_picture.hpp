@@ -39,8 +39,9 @@ class LandscapeDrawing {
   GpuTexture map_;
 };
 
-/// R, G, B as a display shows them.
+/// R, G, B as a display shows them: of each pixel the mean of the light of `rays_across` x
+/// `rays_across` rays. Throws Error(limit) where the driver can't draw so many pixels.
 Image landscape_picture(const LandscapeDrawing& drawing, int width, int height, float time,
-                        const Camera* camera = nullptr);
+                        const Camera* camera = nullptr, int rays_across = 1);
 
 }  // namespace wold

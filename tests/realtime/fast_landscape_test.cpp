@@ -62,6 +62,46 @@ TEST_F(FastLandscape, LooksAsTheFaithfulOne) {
   RecordProperty("psnr", std::to_string(psnr(seen, plain)));
 }
 
+/// Of what a pixel shows on the mean over itself, by 16 rays.
+Picture converged(const Landscape& landscape, float time, const Camera* camera) {
+  const Image image =
+      landscape_picture(LandscapeDrawing(landscape), width, height, time, camera, 4);
+  Picture out;
+  for (int y = height - 1; y >= 0; --y)
+    for (int x = 0; x < width; ++x)
+      for (const float v : {image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2), 1.0F})
+        out.push_back(v);
+  return out;
+}
+
+TEST_F(FastLandscape, OfAnEyeThatStandsBecomesTheMeanOverPixels) {
+  const Landscape landscape = small_landscape();
+  const LandscapeDrawing faithful(landscape);
+  FastLandscapeDrawing fast(landscape, {.ring_size = 256});
+  Camera camera;
+  camera.position = {0, 0, 1100};
+  camera.direction = {0.3F, 1, -0.15F};
+  const Picture truth = converged(landscape, 3, &camera);
+  const double plain = psnr(picture([&] { faithful.draw(width, height, 3, camera); }), truth);
+  Picture seen;
+  for (int k = 0; k < 64; ++k) seen = picture([&] { fast.draw(width, height, 3, camera); });
+  RecordProperty("psnr", std::to_string(psnr(seen, truth)));
+  EXPECT_GE(psnr(seen, truth), plain + 3);
+}
+
+TEST_F(FastLandscape, OfAFlightIsNearerToTheMeanOverPixelsThanOneRay) {
+  const Landscape landscape = small_landscape();
+  const LandscapeDrawing faithful(landscape);
+  FastLandscapeDrawing fast(landscape, {.ring_size = 256});
+  float time = 3;
+  for (int k = 0; k < 24; ++k, time += 1.0F / 30) picture([&] { fast.draw(width, height, time); });
+  const Picture truth = converged(landscape, time, nullptr);
+  const double plain = psnr(picture([&] { faithful.draw(width, height, time); }), truth);
+  const double seen = psnr(picture([&] { fast.draw(width, height, time); }), truth);
+  RecordProperty("psnr", std::to_string(seen));
+  EXPECT_GE(seen, plain + 0.5);
+}
+
 TEST_F(FastLandscape, AMovedOneEqualsAFreshOne) {
   const Landscape landscape = small_landscape();
   FastLandscapeDrawing moved(landscape, {.ring_size = 128});
@@ -75,7 +115,7 @@ TEST_F(FastLandscape, AMovedOneEqualsAFreshOne) {
   EXPECT_GE(psnr(seen, anew), 33.0);
 }
 
-TEST_F(FastLandscape, ForgetsCloudsOnACut) {
+TEST_F(FastLandscape, ForgetsTheLastPictureOnACut) {
   const Landscape landscape = small_landscape();
   FastLandscapeDrawing fast(landscape, {.ring_size = 128});
   Camera camera;

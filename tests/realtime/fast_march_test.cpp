@@ -53,9 +53,9 @@ class FastMarch : public testing::Test {
     program.set("ring_eye", Vec2(eye_));
     program.set("iTime", 0.0F);
     // Samplers of other kinds may not share a unit.
-    for (const char* name : {"frame_view", "last_view", "air_transmittances", "air_multiples",
-                             "sky_by_air", "sky_by_aerosol", "sky_passed", "land_picture",
-                             "new_clouds", "new_distances", "cloud_history"})
+    for (const char* name :
+         {"frame_view", "last_view", "air_transmittances", "air_multiples", "sky_by_air",
+          "sky_by_aerosol", "sky_passed", "land_picture", "new_picture", "history"})
       program.set(name, 2);
   }
 

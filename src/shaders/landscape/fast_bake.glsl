@@ -1,4 +1,4 @@
-// What is baked texel by texel, and the picture that is shown.
+// What is baked texel by texel.
 
 // The place of this texel of a strip that wraps round a texture of `size`.
 vec2 strip_place(int size) {
@@ -43,14 +43,4 @@ void sky_texel(vec2 texel, out vec4 by_air, out vec4 by_aerosol, out vec4 passed
   by_air = vec4(sums.by_air * rayleigh_phase(ray.to_sun) + sums.multiple, 1.0);
   by_aerosol = vec4(sums.by_aerosol, 1.0);
   passed = vec4(sums.transmittance, 1.0);
-}
-
-vec3 shown_landscape(vec2 pixel, vec2 resolution) {
-  vec2 at = pixel / resolution;
-  vec3 seen = textureLod(land_picture, at, 0.0).rgb;
-  if (has_history) {
-    vec4 clouds = textureLod(cloud_history, at, 0.0);
-    seen = seen * clouds.a + clouds.rgb;
-  }
-  return srgb_encoded(1.0 - exp(-seen)) + (pixel_noise(pixel + 17.0) - 0.5) / 255.0;
 }

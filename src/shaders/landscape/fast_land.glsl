@@ -1,8 +1,22 @@
 // Land, sky and air of a pixel, times the exposure, without clouds.
 
+// The least of h / (SUN_SOFTNESS t) along a ray to the sun, from t on.
+float least_clearance(LandRay ray, float t, float finest) {
+  Crossing above = crossing(AIR, ray.height, ray.direction.z, HIGHEST_LAND * TERRAIN_HEIGHT);
+  float end = above.meets ? min(above.far_distance, MAX_RENDERING_DISTANCE) : 0.0;
+  float least = 4.0;
+  for (int i = ZERO; i < MAX_MARCHING_STEPS_SHADOW && t < end && least > -1.0; ++i) {
+    float h = height_along(ray, t) - terrain(place_along(ray, t), max(finest, 0.004 * t)).x;
+    least = min(least, h / (SUN_SOFTNESS * t));
+    t += clamp(0.6 * h, 0.02 * t + finest, 0.1 * end);
+  }
+  return least;
+}
+
 // The sun's share by the baked horizon: the least of h / (SUN_SOFTNESS t) along the way to the sun
 // was found from the baked land's height; a place higher or lower by d sees it d / (SUN_SOFTNESS t)
-// larger, t being where it was found.
+// larger, t being where it was found. Where what was baked around does not agree, at the edges of
+// shadows, it is found anew.
 float horizon_shadow(vec2 place, float height, float pixel, vec3 sun) {
   float first = ring_cell * exp2(float(horizon_first));
   float scale = float(horizon_size) / float(ring_size);
@@ -10,19 +24,31 @@ float horizon_shadow(vec2 place, float height, float pixel, vec3 sun) {
   float halvings = ceil(log2(max(away / (ring_reach(horizon_first) * scale), 1e-6)));
   int level = int(clamp(halvings, 0.0, float(horizon_levels - 1)));
   float cell = first * exp2(float(level));
-  vec2 at = (place / cell + 0.5) / float(horizon_size);
-  vec4 found = textureLod(ring_horizons, vec3(at, float(level)), 0.0);
-  float least = found.x + (height - found.z) * found.y / SUN_SOFTNESS;
+  ivec2 low = ivec2(floor(place / cell));
+  vec2 part = place / cell - vec2(low);
+  float corners[4];
+  float lowest = 4.0;
+  float highest = -4.0;
+  for (int k = ZERO; k < 4; ++k) {
+    ivec2 texel = (low + ivec2(k & 1, k >> 1)) & (horizon_size - 1);
+    vec3 found = texelFetch(ring_horizons, ivec3(texel, level), 0).xyz;
+    corners[k] = clamp(found.x + (height - found.z) * found.y / SUN_SOFTNESS, -1.5, 1.5);
+    lowest = min(lowest, corners[k]);
+    highest = max(highest, corners[k]);
+  }
   // What is near counts by the exact height: it is found anew.
   LandRay ray = LandRay(place, height, sun);
   float finest = max(finest_spacing(OCTAVES_SHADOW), pixel);
+  float least = 4.0;
   float t = 2.0 * finest;
   for (int k = ZERO; k < 12; ++k) {
     float h = height_along(ray, t) - ring_height(place_along(ray, t), finest);
     least = min(least, h / (SUN_SOFTNESS * t));
     t *= 1.3;
   }
-  least = clamp(least, -1.0, 1.0);
+  float far = mix(mix(corners[0], corners[1], part.x), mix(corners[2], corners[3], part.x), part.y);
+  if (highest - lowest > 0.3 && least > -1.0) far = least_clearance(ray, t, finest);
+  least = clamp(min(least, far), -1.0, 1.0);
   return 0.25 * (1.0 + least) * (1.0 + least) * (2.0 - least);
 }
 
@@ -104,7 +130,7 @@ vec3 fast_land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angl
   return shaded(lit.albedo, lit.normal, lit.open, lit.sunlit, light);
 }
 
-// Radiance times exposure, and the distance of the land or -1.
+// Radiance times exposure, and the distance of the land or -1. Neighbours are two pixels apart.
 vec4 fast_landscape(vec2 pixel, vec2 resolution, float time) {
   View view = seen_from(frame_view);
   LandRay ray = LandRay(view.place, view.height, view_ray(view, pixel, resolution));
@@ -113,8 +139,8 @@ vec4 fast_landscape(vec2 pixel, vec2 resolution, float time) {
   float t = fast_march(ray, pixel_angle);
   bool met = t > 0.0;
   vec2 place = ray.direction.xy * t;
-  vec2 across = dFdx(place);
-  vec2 up = dFdy(place);
+  vec2 across = 0.5 * dFdx(place);
+  vec2 up = 0.5 * dFdy(place);
   AirRay air = AirRay(ray.height, ray.direction.z, light.direction.z,
                       dot(ray.direction, light.direction));
   vec3 seen;

@@ -38,6 +38,23 @@ bool maybe_cloud(vec2 place) {
   return textureLod(cloud_shades, shade_place(place), 0.0).g > -0.05;
 }
 
+// Cloud along a stretch of a ray in the layer, ∫ density ds, m; nothing is worked out where none
+// stands.
+float cloud_along(CloudLayer layer, vec2 place, AirRay ray, vec3 direction, float reach,
+                  int steps) {
+  float sum = 0.0;
+  float from = 0.0;
+  for (int k = 1; k <= steps; ++k) {
+    float to = reach * step_edge(k, steps);
+    float s = 0.5 * (from + to);
+    vec2 at = place + s * direction.xy;
+    if (maybe_cloud(at))
+      sum += (to - from) * cloud_density(layer, at, height_after(AIR, ray.height, ray.cosine, s));
+    from = to;
+  }
+  return sum;
+}
+
 float entry_distance(float height, float sun_cosine) {
   Crossing base = crossing(AIR, height, sun_cosine, CLOUDS_HEIGHT);
   return height < CLOUDS_HEIGHT && base.meets ? max(base.far_distance, 0.0) : 0.0;
