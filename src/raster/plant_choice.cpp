@@ -7,6 +7,7 @@
 
 #include "base/hash.hpp"
 #include "base/parallel.hpp"
+#include "base/smoothstep.hpp"
 #include "raster/plant_mesh.hpp"
 #include "render/ray_scene.hpp"
 
@@ -20,10 +21,13 @@ constexpr float least_blades = 24;      // triangles of a small plant
 constexpr float least_share = 0.04F;    // of leaves: with fewer they would grow too large
 constexpr float most_growth = 12;       // in area, of small plants: then the ground takes over
 constexpr float least_small_share = 0.12F;
-constexpr float small_part = 0.4F;         // of the budget, for small plants
-constexpr float hidden_from = 5;           // m: from here on small plants hide each other
-constexpr int wish_bins = 96;              // four per octave, from 1 down
-constexpr float shadow_coarseness = 0.3F;  // share of leaves in shadow maps
+constexpr float small_part = 0.4F;  // of the budget, for small plants
+constexpr float hidden_from = 5;    // m: from here on small plants hide each other
+constexpr int wish_bins = 96;       // four per octave, from 1 down
+// Share of leaves in shadow maps, far away; all of them near by, where each shadow is seen.
+constexpr float shadow_coarseness = 0.3F;
+constexpr Vec2 shadow_fine_range(12, 40);   // m
+constexpr float shadow_card_height = 0.7F;  // of what trees are seen as: pictures shade less
 
 /// What one visible plant asks for.
 struct Wish {
@@ -46,7 +50,7 @@ class Chooser {
       : fields_(fields), levels_(levels), sizes_(sizes), view_(view), detail_(detail) {
     budget_ = static_cast<double>(detail.triangle_budget);
     if (view.depth_only) budget_ *= static_cast<double>(shadow_coarseness);
-    card_height_ = detail.card_height;
+    card_height_ = (view.depth_only ? shadow_card_height : 1.0F) * detail.card_height;
   }
 
   PlantChoice choose() {
@@ -114,7 +118,9 @@ class Chooser {
       w.fine = pixel < levels_[p.model].fine_pixel && !view_.depth_only;
       const float leaves = 0.5F * full_triangles(p.model);
       w.leaves = detail_.leaves_per_pixel * size.crown / (pixel * pixel * std::max(leaves, 1.0F));
-      if (view_.depth_only) w.leaves *= shadow_coarseness;
+      if (view_.depth_only)
+        w.leaves *= std::lerp(1.0F, shadow_coarseness,
+                              smoothstep(shadow_fine_range.x, shadow_fine_range.y, distance));
       if (small) {
         // Seen across a meadow a plant shows its top alone.
         w.leaves *= std::min(1.0F, hidden_from / distance);

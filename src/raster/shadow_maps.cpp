@@ -12,7 +12,7 @@ namespace {
 
 constexpr float leave = 0.18F;      // of the radius: how far the eye goes before a map is drawn
 constexpr float least_depth = 600;  // m, half of what a map holds along the light
-constexpr float blur_texels = 1.7F;
+constexpr float blur_texels = 0.8F;
 constexpr float least_turn = 0.9999995F;  // cosine of how far the sun goes
 
 /// A place moved onto whole texels across the light.

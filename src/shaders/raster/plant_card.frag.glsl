@@ -39,6 +39,24 @@ float sharper(float longest, float own) {
   return own > 0.0 ? clamp(longest / own, 0.3, 1.0) : 1.0;
 }
 
+// Nothing outside the picture. `at`, `dx`, `dy`: where the other textures are looked up.
+vec4 card_seen(float row, float column, out vec3 at, out vec2 dx, out vec2 dy) {
+  float elevation = row > 0.0 ? card_elevations.y : card_elevations.x;
+  float tall = 0.5 * (card_shape.z - card_shape.y) * cos(elevation) + card_shape.x * sin(elevation);
+  vec2 size = vec2(card_shape.x, tall);
+  vec2 uv = 0.5 + 0.5 * card_place / size;
+  float number = row * 8.0 + column;
+  vec2 corner = vec2(mod(number, 4.0), floor(number / 4.0));
+  at = vec3(0.25 * (corner + clamp(uv, 0.0, 1.0)), float(card_layer));
+  dx = 0.125 * dFdx(card_place) / size;
+  dy = 0.125 * dFdy(card_place) / size;
+  float least = min(length(dx), length(dy));
+  dx *= sharper(1.5 * least, length(dx));
+  dy *= sharper(1.5 * least, length(dy));
+  vec4 seen = textureGrad(card_albedo, at, dx, dy);
+  return any(greaterThan(abs(uv - 0.5), vec2(0.5))) ? vec4(0.0) : seen;
+}
+
 void main() {
   vec2 pixel = floor(gl_FragCoord.xy);
   if (card_noise(pixel.yx, individual.wz, 0.7548777) >= pictures.w) discard;
@@ -47,21 +65,14 @@ void main() {
   float other = smoothstep(0.35, 0.65, pictures.y);
   float row = fract(u * 7.31 + 0.37) < smoothstep(0.3, 0.7, pictures.z) ? 1.0 : 0.0;
   float column = mod(pictures.x + (u < other ? 1.0 : 0.0), 8.0);
-  float elevation = row > 0.0 ? card_elevations.y : card_elevations.x;
-  float tall = 0.5 * (card_shape.z - card_shape.y) * cos(elevation) + card_shape.x * sin(elevation);
-  vec2 size = vec2(card_shape.x, tall);
-  vec2 uv = 0.5 + 0.5 * card_place / size;
-  float number = row * 8.0 + column;
-  vec2 corner = vec2(mod(number, 4.0), floor(number / 4.0));
-  vec3 at = vec3(0.25 * (corner + clamp(uv, 0.0, 1.0)), float(card_layer));
-  vec2 dx = 0.125 * dFdx(card_place) / size;
-  vec2 dy = 0.125 * dFdy(card_place) / size;
-  float least = min(length(dx), length(dy));
-  dx *= sharper(1.5 * least, length(dx));
-  dy *= sharper(1.5 * least, length(dy));
-  vec4 seen = textureGrad(card_albedo, at, dx, dy);
-  if (any(greaterThan(abs(uv - 0.5), vec2(0.5)))) discard;
-  if (seen.a <= card_noise(pixel, individual.zw, 0.6180340)) discard;
+  vec3 at;
+  vec2 dx, dy;
+  vec4 seen = card_seen(row, column, at, dx, dy);
+#ifdef DEPTH_ONLY
+  // Between two pictures a crown is as dense as either: a mean would let the sun through.
+  seen.a = max(seen.a, card_seen(1.0 - row, column, at, dx, dy).a);
+#endif
+  if (seen.a <= 0.0 || seen.a <= card_noise(pixel, individual.zw, 0.6180340)) discard;
 #ifndef DEPTH_ONLY
   vec4 facing = textureGrad(card_normal, at, dx, dy);
   vec4 let_in = textureGrad(card_light, at, dx, dy);

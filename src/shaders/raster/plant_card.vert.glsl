@@ -40,6 +40,9 @@ void main() {
   card_place = corner * size;
   vec3 offset = card_place.x * right + card_place.y * up;
   vec3 at = centre + plant_at.w * turned_by(plant_turn, offset);
+  // Towards a sun (its rays are parallel) the crown reaches further than the picture: so it shades
+  // what is under it as well.
+  at += towards * (0.9 * towards_viewer.w * card_shape.x * plant_at.w);
   gl_Position = from_eye * vec4(at, 1.0);
   place = eye + at;
   turn = plant_turn;

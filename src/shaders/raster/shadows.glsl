@@ -60,12 +60,14 @@ float under_canopy(vec3 place) {
   return exp(-0.5 * leaves.x) * 0.5 + 0.5 * exp(-0.7 * leaves.y);
 }
 
-// Part of the sky that small plants let through to the ground under them.
+// Part of the sky that small plants let through to the ground under them: of an even sky through
+// wide beds of leaves, whose slanting ways are longer, 2 E3(L / 2), nearly exp(-1.6 L / 2) (the
+// diffusivity factor of radiation in layers: Elsasser, 1942).
 float under_undergrowth(vec3 place) {
   if (undergrowth_place.x == 0.0) return 1.0;
   vec2 at = undergrowth_place.zw + undergrowth_place.xy * place.xy;
   vec2 inside = smoothstep(0.0, 0.1, at) * (1.0 - smoothstep(0.9, 1.0, at));
-  return exp(-0.5 * texture(undergrowth_map, at).x * inside.x * inside.y);
+  return exp(-0.8 * texture(undergrowth_map, at).x * inside.x * inside.y);
 }
 
 // Part of the sun that crowns around let through, on the mean: where there are no shadow maps.
@@ -78,7 +80,7 @@ float sun_through_canopy(vec3 place) {
 float mapped_sun_share(vec3 place, vec3 normal) {
   for (int k = 0; k < shadow_count; ++k) {
     // Off the surface by more than what a texel hides.
-    vec3 lifted = place + normal * (2.0 * shadow_texels[k]);
+    vec3 lifted = place + normal * (1.0 * shadow_texels[k]);
     vec3 at = (shadow_matrices[k] * vec4(lifted, 1.0)).xyz;
     float edge = max(abs(at.x), abs(at.y));
     if (edge > 0.97 || at.z < 0.0 || at.z > 1.0) continue;

@@ -1,0 +1,69 @@
+// How like the drawn picture of a scene is to the traced one: ratios of mean colours, by what is
+// seen.
+//
+//   raster_likeness SCENE [WIDTHxHEIGHT [low|medium|high [SAMPLES]]]
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "../../tests/raster/likeness.hpp"
+#include "gpu/context.hpp"
+
+namespace wold {
+namespace {
+
+void run(const std::string& file, const std::string& size_text, const std::string& quality_text,
+         unsigned samples) {
+  IVec2 size(0);
+  if (std::sscanf(size_text.c_str(), "%dx%d", &size.x, &size.y) != 2 || size.x < 8 || size.y < 8)
+    throw Error(ErrorKind::usage, "a size is as 320x180, not " + size_text);
+  const DrawingQuality quality = quality_text == "low"    ? DrawingQuality::low
+                                 : quality_text == "high" ? DrawingQuality::high
+                                                          : DrawingQuality::medium;
+  Progress progress;
+  const OffscreenContext context;
+  PlantedWorld world(read_scene(file), progress);
+  const Camera camera = world.camera(world.scene().camera(""), progress);
+  const Likeness l = likeness(world, camera, size, samples, quality, 16);
+  struct Row {
+    const char* name;
+    Shown kind;
+    float from;
+    float to;
+  };
+  fmt::print("| {}, drawn / traced | R | G | B | pixels |\n|---|---|---|---|---|\n", file);
+  for (const Row& row :
+       {Row{"sky", Shown::sky, 0, 1e9F}, Row{"sunlit ground", Shown::sunlit, 0, 1e9F},
+        Row{"ground in shade", Shown::shade, 0, 1e9F},
+        Row{"ground in shade within 15 m", Shown::shade, 0, 15},
+        Row{"plants within 60 m", Shown::plant, 0, 60},
+        Row{"plants beyond", Shown::plant, 60, 1e9F}}) {
+    const MeanColors means = mean_colors(l, row.kind, row.from, row.to);
+    if (means.pixels < 20) continue;
+    const Vec3 ratio = means.drawn / means.traced;
+    fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {} |\n", row.name, ratio.x, ratio.y, ratio.z,
+               means.pixels);
+  }
+}
+
+}  // namespace
+}  // namespace wold
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::cerr << "usage: raster_likeness SCENE [WIDTHxHEIGHT [low|medium|high [SAMPLES]]]\n";
+    return 2;
+  }
+  try {
+    wold::run(argv[1], argc > 2 ? argv[2] : "320x180", argc > 3 ? argv[3] : "medium",
+              argc > 4 ? static_cast<unsigned>(std::stoul(argv[4])) : 32);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return 1;
+  }
+}
