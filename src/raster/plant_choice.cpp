@@ -49,7 +49,7 @@ class Chooser {
           std::span<const PlantSizes> sizes, const DrawView& view, const PlantDetail& detail)
       : fields_(fields), levels_(levels), sizes_(sizes), view_(view), detail_(detail) {
     budget_ = static_cast<double>(detail.triangle_budget);
-    if (view.depth_only) budget_ *= static_cast<double>(shadow_coarseness);
+    if (view.depth_only) budget_ *= static_cast<double>(detail.shadow_share);
     card_height_ = (view.depth_only ? shadow_card_height : 1.0F) * detail.card_height;
   }
 
@@ -122,8 +122,8 @@ class Chooser {
         w.leaves *= std::lerp(1.0F, shadow_coarseness,
                               smoothstep(shadow_fine_range.x, shadow_fine_range.y, distance));
       if (small) {
-        // Seen across a meadow a plant shows its top alone.
-        w.leaves *= std::min(1.0F, hidden_from / distance);
+        // Seen across a meadow a plant shows its top alone; the sun sees the rest of it, too.
+        if (!view_.depth_only) w.leaves *= std::min(1.0F, hidden_from / distance);
         const float near = 0.7F * detail_.small_distance;
         w.thin = std::clamp((detail_.small_distance - distance) / (detail_.small_distance - near),
                             0.0F, 1.0F);
@@ -288,7 +288,9 @@ Description<PlantDetail> describe(const PlantDetail&) {
       .add("small_distance", &PlantDetail::small_distance, {.unit = "m", .min = 1, .max = 1e5},
            "Distance at which the last small plants are gone.")
       .add("small_height", &PlantDetail::small_height, {.unit = "m", .min = 0, .max = 100},
-           "Height up to which a plant is small.");
+           "Height up to which a plant is small.")
+      .add("shadow_share", &PlantDetail::shadow_share, {.min = 0.01, .max = 10},
+           "Part of the triangles that may be drawn into a shadow map.");
 }
 
 PlantSizes plant_sizes(const PlantLevels& levels) {

@@ -26,6 +26,7 @@ struct PlantDetail {
   float card_height = 90;      ///< pixels
   float small_distance = 120;  ///< m
   float small_height = 1;      ///< m
+  float shadow_share = 1;      ///< of the budget, for a shadow map
 };
 
 Description<PlantDetail> describe(const PlantDetail&);

@@ -22,6 +22,7 @@ SceneDetail scene_detail(DrawingQuality quality) {
     case DrawingQuality::low:
       detail.shadows.size = 1024;
       detail.plants.triangle_budget = 700'000;
+      detail.plants.shadow_share = 0.3F;
       detail.picture.cloud_steps = 32;
       detail.picture.cloud_light_steps = 4;
       break;
