@@ -79,8 +79,8 @@ float sun_through_canopy(vec3 place) {
 // Part of the sun that is seen past what the shadow maps hold: beyond them, past crowns.
 float mapped_sun_share(vec3 place, vec3 normal) {
   for (int k = 0; k < shadow_count; ++k) {
-    // Off the surface by more than what a texel hides.
-    vec3 lifted = place + normal * (1.0 * shadow_texels[k]);
+    // Off the surface by what a texel hides.
+    vec3 lifted = place + normal * shadow_texels[k];
     vec3 at = (shadow_matrices[k] * vec4(lifted, 1.0)).xyz;
     float edge = max(abs(at.x), abs(at.y));
     if (edge > 0.97 || at.z < 0.0 || at.z > 1.0) continue;
