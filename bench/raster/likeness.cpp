@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <map>
 #include <string>
 
 #include "../../tests/raster/likeness.hpp"
@@ -17,18 +19,25 @@ namespace wold {
 namespace {
 
 void run(const std::string& file, const std::string& size_text, const std::string& quality_text,
-         unsigned samples) {
+         const std::string& samples_text) {
   IVec2 size(0);
   if (std::sscanf(size_text.c_str(), "%dx%d", &size.x, &size.y) != 2 || size.x < 8 || size.y < 8)
     throw Error(ErrorKind::usage, "a size is as 320x180, not " + size_text);
-  const DrawingQuality quality = quality_text == "low"    ? DrawingQuality::low
-                                 : quality_text == "high" ? DrawingQuality::high
-                                                          : DrawingQuality::medium;
+  const std::map<std::string, DrawingQuality> qualities{{"low", DrawingQuality::low},
+                                                        {"medium", DrawingQuality::medium},
+                                                        {"high", DrawingQuality::high}};
+  const auto quality = qualities.find(quality_text);
+  if (quality == qualities.end())
+    throw Error(ErrorKind::usage, "a quality is low, medium or high, not " + quality_text);
+  const int samples = std::atoi(samples_text.c_str());
+  if (samples < 1)
+    throw Error(ErrorKind::usage, "samples are a number from 1, not " + samples_text);
   Progress progress;
   const OffscreenContext context;
   PlantedWorld world(read_scene(file), progress);
   const Camera camera = world.camera(world.scene().camera(""), progress);
-  const Likeness l = likeness(world, camera, size, samples, quality, 16);
+  const Likeness l =
+      likeness(world, camera, size, static_cast<unsigned>(samples), quality->second, 16);
   struct Row {
     const char* name;
     Shown kind;
@@ -60,7 +69,7 @@ int main(int argc, char** argv) {
   }
   try {
     wold::run(argv[1], argc > 2 ? argv[2] : "320x180", argc > 3 ? argv[3] : "medium",
-              argc > 4 ? static_cast<unsigned>(std::stoul(argv[4])) : 32);
+              argc > 4 ? argv[4] : "32");
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "error: " << error.what() << '\n';

@@ -31,11 +31,7 @@ void FastCloudTables::bake_shades(FastPasses& passes, const RingTarget& target,
   if (strips.empty()) return;
   const GpuProgram& program = passes[FastPass::shades];
   bind(program);
-  for (const RingStrip& s : strips) {
-    program.set("strip_low", s.low);
-    program.set("strip_cell", static_cast<float>(shade_squares_.cell(s.level)));
-    target.draw(shades_, s.level, 0, shade_squares_.rects(s));
-  }
+  draw_strips(program, target, shade_squares_, strips, shades_);
 }
 
 void FastCloudTables::bake_lights(FastPasses& passes, const RingTarget& target,
@@ -45,14 +41,9 @@ void FastCloudTables::bake_lights(FastPasses& passes, const RingTarget& target,
   if (strips.empty()) return;
   const GpuProgram& program = passes[FastPass::cloud_lights];
   bind(program);
-  for (const RingStrip& s : strips) {
-    program.set("strip_low", s.low);
-    program.set("strip_cell", static_cast<float>(light_squares_.cell(s.level)));
-    const std::vector<RingRect> rects = light_squares_.rects(s);
-    for (int slice = first_slice; slice < end_slice; ++slice) {
-      program.set("strip_slice", slice);
-      target.draw(lights_, s.level * light_slices + slice, 0, rects);
-    }
+  for (int slice = first_slice; slice < end_slice; ++slice) {
+    program.set("strip_slice", slice);
+    draw_strips(program, target, light_squares_, strips, lights_, light_slices, slice);
   }
 }
 

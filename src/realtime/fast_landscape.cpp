@@ -193,11 +193,7 @@ void FastLandscapeDrawing::State::bake_horizons(const std::vector<RingStrip>& st
   if (strips.empty()) return;
   const GpuProgram& program = passes[FastPass::horizons];
   bind_all(program);
-  for (const RingStrip& s : strips) {
-    program.set("strip_low", s.low);
-    program.set("strip_cell", static_cast<float>(horizon_squares->cell(s.level)));
-    ring_target.draw(horizons, s.level, 0, horizon_squares->rects(s));
-  }
+  draw_strips(program, ring_target, *horizon_squares, strips, horizons);
 }
 
 void FastLandscapeDrawing::State::bake(const LandscapeEye& eye) {

@@ -12,14 +12,12 @@
 // - Air: tables of transmittance and of light scattered more than once; a table of the sky about
 //   the eye; few steps before land (Hillaire, "A scalable and production ready sky and atmosphere
 //   rendering technique", EGSR 2020).
-// - Clouds: sunlight within them from a table that drifts with them
-// (realtime/fast_cloud_tables.hpp),
-//   but for the nearest of what shades a place.
+// - Clouds: sunlight within them from a table that drifts with them, but for the nearest of what
+//   shades a place (realtime/fast_cloud_tables.hpp).
 // - Pixels: a quarter of them each frame, each round through another place within the pixel; the
-// rest
-//   from the frames before, carried along with eye and wind and held to what is near in the new
-//   ones (Karis, "High-quality temporal supersampling", SIGGRAPH 2014). So edges and texture are
-//   smooth, and of a camera that stands the picture becomes the mean over each pixel.
+//   rest from the frames before, carried along with eye and wind and held to what is near in the
+//   new ones (Karis, "High-quality temporal supersampling", SIGGRAPH 2014). So edges and texture
+//   are smooth, and of a camera that stands the picture becomes the mean over each pixel.
 
 #include <memory>
 #include <optional>

@@ -93,17 +93,23 @@ const GpuProgram& FastPasses::operator[](FastPass pass) {
   return program;
 }
 
+void draw_strips(const GpuProgram& program, const RingTarget& target, const RingSquares& squares,
+                 const std::vector<RingStrip>& strips, const GpuTexture& texture, int layers,
+                 int layer) {
+  for (const RingStrip& s : strips) {
+    program.set("strip_low", s.low);
+    program.set("strip_cell", static_cast<float>(squares.cell(s.level)));
+    target.draw(texture, layers * s.level + layer, 0, squares.rects(s));
+  }
+}
+
 void bake_land(FastPasses& passes, const RingTarget& target, const RingSquares& squares,
                const std::vector<RingStrip>& strips, const GpuTexture& heights,
                const GpuTexture& maxima, const std::function<void(const GpuProgram&)>& bind) {
   if (strips.empty()) return;
   const GpuProgram& land = passes[FastPass::heights];
   bind(land);
-  for (const RingStrip& s : strips) {
-    land.set("strip_low", s.low);
-    land.set("strip_cell", static_cast<float>(squares.cell(s.level)));
-    target.draw(heights, s.level, 0, squares.rects(s));
-  }
+  draw_strips(land, target, squares, strips, heights);
   // A patch reaches to the next texel: those before the strip are new as well.
   const GpuProgram& patches = passes[FastPass::patches];
   bind(patches);

@@ -46,6 +46,12 @@ class FastPasses {
 /// functions of landscape/fast_*.glsl.
 std::string fast_pass_functions(const std::string& body);
 
+/// Draws strips of squares into a texture with `layers` layers for each level, one of them, by a
+/// program that is bound: sets its strip_low and strip_cell.
+void draw_strips(const GpuProgram& program, const RingTarget& target, const RingSquares& squares,
+                 const std::vector<RingStrip>& strips, const GpuTexture& texture, int layers = 1,
+                 int layer = 0);
+
 /// Bakes strips of the land into `heights` and raises the pyramid of `maxima` over them (both
 /// arrays with a layer for each level of the squares). `bind` sets uniforms and textures: heights
 /// on unit 0, maxima on unit 1.
