@@ -1,5 +1,7 @@
 #include "realtime/fast_cloud_tables.hpp"
 
+#include <algorithm>
+
 namespace wold {
 
 namespace {
@@ -47,19 +49,28 @@ void FastCloudTables::bake_lights(FastPasses& passes, const RingTarget& target,
   }
 }
 
+void FastCloudTables::sun_moved() {
+  old_shades_ = shade_levels;
+  old_lights_ = light_slices * light_squares_.levels();
+}
+
 void FastCloudTables::bake(FastPasses& passes, const RingTarget& target, DVec2 eye, DVec2 to_layer,
-                           bool sun_moves, const std::function<void(const GpuProgram&)>& bind) {
+                           bool at_once, const std::function<void(const GpuProgram&)>& bind) {
   shade_middle_ = eye + to_layer;
   light_middle_ = eye;
   const int layers = light_slices * light_squares_.levels();
   std::vector<RingStrip> changed = shade_squares_.move_to(shade_middle_);
-  if (sun_moves) changed.push_back(shade_squares_.whole(next_layer_ % shade_levels));
+  for (int k = at_once ? old_shades_ : std::min(old_shades_, 1); k > 0; --k, --old_shades_) {
+    next_shade_ = (next_shade_ + 1) % shade_levels;
+    changed.push_back(shade_squares_.whole(next_shade_));
+  }
   bake_shades(passes, target, changed, bind);
   bake_lights(passes, target, light_squares_.move_to(light_middle_), 0, light_slices, bind);
-  for (int k = 0; sun_moves && k < layers_a_frame; ++k) {
-    next_layer_ = (next_layer_ + 1) % layers;
-    const int slice = next_layer_ % light_slices;
-    bake_lights(passes, target, {light_squares_.whole(next_layer_ / light_slices)}, slice,
+  const int again = at_once ? old_lights_ : std::min(old_lights_, layers_a_frame);
+  for (int k = again; k > 0; --k, --old_lights_) {
+    next_light_ = (next_light_ + 1) % layers;
+    const int slice = next_light_ % light_slices;
+    bake_lights(passes, target, {light_squares_.whole(next_light_ / light_slices)}, slice,
                 slice + 1, bind);
   }
 }

@@ -41,8 +41,9 @@ bool is_cut(const LandscapeEye& a, const LandscapeEye& b) {
 
 bool stands(const LandscapeEye& a, const LandscapeEye& b) {
   if (a.place != b.place || a.camera.has_value() != b.camera.has_value()) return false;
-  return !a.camera || (a.camera->position == b.camera->position &&
-                       a.camera->direction == b.camera->direction && a.camera->up == b.camera->up);
+  return !a.camera ||
+         (a.camera->position == b.camera->position && a.camera->direction == b.camera->direction &&
+          a.camera->up == b.camera->up && a.camera->field_of_view == b.camera->field_of_view);
 }
 
 }  // namespace wold

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "gpu/context.hpp"
 #include "gpu/objects.hpp"
@@ -48,6 +49,8 @@ struct FastLandscapeDrawing::State {
   void bake(const LandscapeEye& eye);
   void bake_heights(const std::vector<RingStrip>& strips);
   void bake_horizons(const std::vector<RingStrip>& strips);
+  void sun_moved();
+  bool settling() const;
   void draw_view(const LandscapeEye& eye, int width, int height);
   void draw_sky();
   void draw_quarters(int width, int height, int count);
@@ -91,6 +94,7 @@ struct FastLandscapeDrawing::State {
   bool still = false;
   float scale = 1;
   int next_horizon = 0;
+  int old_horizons = 0;  // levels baked for another sun
 };
 
 FastLandscapeDrawing::State::State(const Landscape& landscape, const FastLandscapeSettings& s)
@@ -182,6 +186,11 @@ void FastLandscapeDrawing::State::bind_all(const GpuProgram& program) const {
     program.set("iTime", last->time);
   }
   program.set("sun_now", sun);
+  program.set("sun_elevation", knobs.sun_elevation);
+  program.set("sun_azimuth", knobs.sun_azimuth);
+  program.set("exposure", knobs.exposure);
+  const bool free = last && last->camera;
+  program.set("field_of_view", free ? last->camera->field_of_view : knobs.field_of_view);
 }
 
 void FastLandscapeDrawing::State::bake_heights(const std::vector<RingStrip>& strips) {
@@ -197,11 +206,10 @@ void FastLandscapeDrawing::State::bake_horizons(const std::vector<RingStrip>& st
 }
 
 void FastLandscapeDrawing::State::bake(const LandscapeEye& eye) {
-  const bool sun_moves = knobs.day_speed != 0;
-  sun = sun_at(knobs, eye.time);
+  const bool at_once = frames == 0;
   bake_heights(squares->move_to(eye.place));
   std::vector<RingStrip> changed = horizon_squares->move_to(eye.place);
-  if (sun_moves) {
+  for (int k = at_once ? old_horizons : std::min(old_horizons, 1); k > 0; --k, --old_horizons) {
     next_horizon = (next_horizon + 1) % horizon_squares->levels();
     changed.push_back(horizon_squares->whole(next_horizon));
   }
@@ -210,8 +218,17 @@ void FastLandscapeDrawing::State::bake(const LandscapeEye& eye) {
   const double rise = static_cast<double>(std::max(sun.z, 0.05F));
   const DVec2 wind(static_cast<double>(knobs.wind_speed) * static_cast<double>(eye.time), 0);
   const DVec2 to_layer = DVec2(sun.x, sun.y) / rise * static_cast<double>(knobs.clouds_height);
-  clouds->bake(passes, ring_target, eye.place - wind, to_layer, sun_moves,
+  clouds->bake(passes, ring_target, eye.place - wind, to_layer, at_once,
                [&](const GpuProgram& program) { bind_all(program); });
+}
+
+void FastLandscapeDrawing::State::sun_moved() {
+  if (horizon_squares) old_horizons = horizon_squares->levels();
+  if (clouds) clouds->sun_moved();
+}
+
+bool FastLandscapeDrawing::State::settling() const {
+  return old_horizons > 0 || (clouds && clouds->settling());
 }
 
 void FastLandscapeDrawing::State::draw_view(const LandscapeEye& eye, int width, int height) {
@@ -302,7 +319,9 @@ void FastLandscapeDrawing::State::draw(int width, int height, const LandscapeEye
   const int h = std::max(1, static_cast<int>(std::lround(scale * static_cast<float>(height))));
   make_rings(width);
   if (last && is_cut(*last, eye)) frames = 0;
-  still = last && frames > 0 && stands(*last, eye) && knobs.day_speed == 0;
+  const Vec3 sun_before = std::exchange(sun, sun_at(knobs, eye.time));
+  if (last && sun != sun_before) sun_moved();
+  still = last && frames > 0 && stands(*last, eye) && !settling();
   resize(w, h);
   last = eye;
   bake(eye);
@@ -346,11 +365,22 @@ void FastLandscapeDrawing::draw(int width, int height, float time, const Camera&
   state_->draw(width, height, {DVec2(camera.position.x, camera.position.y), camera, time});
 }
 
+void FastLandscapeDrawing::set_sun(float elevation, float azimuth) {
+  state_->knobs.sun_elevation = elevation;
+  state_->knobs.sun_azimuth = azimuth;
+}
+void FastLandscapeDrawing::set_exposure(float stops) {
+  state_->knobs.exposure = stops;
+}
+
 void FastLandscapeDrawing::cut() {
   state_->frames = 0;
 }
 int FastLandscapeDrawing::frames() const {
   return state_->frames;
+}
+bool FastLandscapeDrawing::settling() const {
+  return state_->settling();
 }
 float FastLandscapeDrawing::scale() const {
   return state_->scale;

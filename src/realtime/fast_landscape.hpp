@@ -48,11 +48,19 @@ class FastLandscapeDrawing {
   /// The same from a camera of the world's, whose place is measured from the terrain's middle.
   void draw(int width, int height, float time, const Camera& camera);
 
+  /// From the next picture on, degrees: what is baked of its light follows within some pictures, or
+  /// in the first after a cut.
+  void set_sun(float elevation, float azimuth);
+  /// Stops, from the next picture on: EXPOSURE.
+  void set_exposure(float stops);
+
   /// The next picture has nothing to do with the last: all its pixels are new. Found out alone
   /// where the camera leaps or turns far, or time does.
   void cut();
   /// Pictures since the last cut, that one included.
   int frames() const;
+  /// Whether some of what is baked is of another sun yet.
+  bool settling() const;
   /// Of the picture's size, at which the last one was drawn.
   float scale() const;
 

@@ -75,7 +75,9 @@ const char* main_of(FastPass pass) {
 
 }  // namespace
 
-FastPasses::FastPasses(const Landscape& landscape) : body_(landscape_body(landscape)) {}
+FastPasses::FastPasses(const Landscape& landscape)
+    : body_(landscape_body(landscape,
+                           {"SUN_ELEVATION", "SUN_AZIMUTH", "EXPOSURE", "FIELD_OF_VIEW"})) {}
 
 std::string fast_pass_functions(const std::string& body) {
   return before + body + includes;

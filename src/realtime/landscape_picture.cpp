@@ -62,12 +62,13 @@ GpuTexture height_map_texture(const HeightMap& map) {
   }
 }
 
-LandscapeDrawing::LandscapeDrawing(const Landscape& landscape) : body_(landscape_body(landscape)) {
+LandscapeDrawing::LandscapeDrawing(const Landscape& landscape)
+    : body_(landscape_body(landscape)), free_body_(landscape_body(landscape, {"FIELD_OF_VIEW"})) {
   prepare(landscape.map);
 }
 
 LandscapeDrawing::LandscapeDrawing(const std::string& fragment, const std::optional<HeightMap>& map)
-    : body_(fragment) {
+    : body_(fragment), free_body_(fragment) {
   prepare(map);
 }
 
@@ -94,9 +95,10 @@ void LandscapeDrawing::draw(int width, int height, float time) const {
 }
 
 void LandscapeDrawing::draw(int width, int height, float time, const Camera& camera) const {
-  if (!free_) free_ = program_of("#define LANDSCAPE_CAMERA\n" + body_);
+  if (!free_) free_ = program_of("#define LANDSCAPE_CAMERA\n" + free_body_);
   const Vec3 forward = glm::normalize(camera.direction);
   free_.set("camera_place", Vec4(camera.position, 0));
+  free_.set("field_of_view", camera.field_of_view);
   free_.set("camera_forward", forward);
   free_.set("camera_right", glm::normalize(glm::cross(forward, camera.up)));
   draw(free_, width, height, time);

@@ -21,7 +21,7 @@ class LandscapeDrawing {
   /// Throws Error(internal) with the driver's log, in the names of our files and of "landscape".
   explicit LandscapeDrawing(const Landscape& landscape);
   /// `fragment` is a whole shader text that defines `mainImage` and needs nothing but Shadertoy's
-  /// uniforms: what was exported.
+  /// uniforms: what was exported. Its field of view is its own.
   LandscapeDrawing(const std::string& fragment, const std::optional<HeightMap>& map);
 
   /// Draws over the whole of the bound target, width x height pixels, `time` seconds into the
@@ -34,6 +34,7 @@ class LandscapeDrawing {
   void prepare(const std::optional<HeightMap>& map);
   void draw(const GpuProgram& program, int width, int height, float time) const;
   std::string body_;
+  std::string free_body_;      // with the camera's field of view
   mutable GpuProgram flight_;  // each made when it is first wanted: drivers take seconds
   mutable GpuProgram free_;
   GpuTexture map_;

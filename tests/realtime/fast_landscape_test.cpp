@@ -115,6 +115,53 @@ TEST_F(FastLandscape, AMovedOneEqualsAFreshOne) {
   EXPECT_GE(psnr(seen, anew), 33.0);
 }
 
+TEST_F(FastLandscape, ASunThatIsSetLightsAsOneOfTheScene) {
+  Landscape landscape = small_landscape();
+  FastLandscapeDrawing turned(landscape, {.ring_size = 128});
+  Camera camera;
+  camera.position = {0, 0, 1100};
+  camera.direction = {0.3F, 1, -0.15F};
+  const Picture before = picture([&] { turned.draw(width, height, 3, camera); });
+  landscape.settings.sun_elevation = 12;
+  landscape.settings.sun_azimuth = 110;
+  landscape.settings.exposure = 0.5F;
+  FastLandscapeDrawing fresh(landscape, {.ring_size = 128});
+  const Picture anew = picture([&] { fresh.draw(width, height, 3, camera); });
+  EXPECT_LT(psnr(before, anew), 20.0);
+
+  turned.set_sun(12, 110);
+  turned.set_exposure(0.5F);
+  Picture seen;
+  int pictures = 0;
+  do {
+    seen = picture([&] { turned.draw(width, height, 3, camera); });
+    ++pictures;
+  } while (turned.settling() && pictures < 500);
+  EXPECT_LT(pictures, 500);
+  EXPECT_GE(psnr(seen, anew), 28.0) << "after " << pictures;
+
+  turned.set_sun(30, 200);
+  picture([&] { turned.draw(width, height, 3, camera); });
+  turned.set_sun(12, 110);
+  turned.cut();
+  EXPECT_GE(psnr(picture([&] { turned.draw(width, height, 3, camera); }), anew), 33.0);
+  EXPECT_FALSE(turned.settling());
+}
+
+TEST_F(FastLandscape, SeesTheCamerasField) {
+  const Landscape landscape = small_landscape();
+  Camera camera;
+  camera.position = {0, 0, 1100};
+  camera.direction = {0.3F, 1, -0.15F};
+  camera.field_of_view = 25;
+  const LandscapeDrawing faithful(landscape);
+  FastLandscapeDrawing fast(landscape, {.ring_size = 128});
+  const Picture plain = picture([&] { faithful.draw(width, height, 3, camera); });
+  EXPECT_GE(psnr(picture([&] { fast.draw(width, height, 3, camera); }), plain), 30.0);
+  camera.field_of_view = 55;
+  EXPECT_LT(psnr(picture([&] { faithful.draw(width, height, 3, camera); }), plain), 25.0);
+}
+
 TEST_F(FastLandscape, ForgetsTheLastPictureOnACut) {
   const Landscape landscape = small_landscape();
   FastLandscapeDrawing fast(landscape, {.ring_size = 128});

@@ -28,8 +28,7 @@ vec2 last_pixel(vec2 pixel, vec2 resolution, float away, float wind) {
   to.z += view.height - last.height;
   float depth = dot(to, last.forward);
   if (depth <= 0.0) return vec2(-1e4);
-  float half_width = depth * tan(0.5 * radians(FIELD_OF_VIEW));
-  vec2 p = vec2(dot(to, last.right), dot(to, last.up)) / half_width;
+  vec2 p = vec2(dot(to, last.right), dot(to, last.up)) / (depth * last_half_width());
   return 0.5 * (p * max(resolution.x, resolution.y) + resolution);
 }
 
@@ -100,6 +99,7 @@ vec4 resolved_picture(vec2 pixel, vec2 resolution, float time) {
   float samples = texelFetch(history, ivec2(then), 0).a;
   if (samples < 0.5) return fresh;
   vec3 before = stays ? texelFetch(history, at, 0).rgb : sharp_history(then, resolution);
+  if (!same_view) before *= frame_exposure() / last_exposure();
   if (!still && !same_view) before = held_to_new(before, ivec2(floor(between + 0.5)), last_cell);
   samples = min(samples, most_samples - 1.0);
   if (!is_new) return vec4(before, samples);

@@ -18,6 +18,13 @@ Light frame_light() {
 float frame_exposure() {
   return texelFetch(frame_view, ivec2(3, 0), 0).w;
 }
+float last_exposure() {
+  return texelFetch(last_view, ivec2(3, 0), 0).w;
+}
+// Half the longer side of what is seen at distance 1.
+float last_half_width() {
+  return texelFetch(last_view, ivec2(1, 0), 0).w;
+}
 vec3 sun_on_clouds() {
   return texelFetch(frame_view, ivec2(5, 0), 0).xyz;
 }
@@ -25,7 +32,7 @@ vec3 sun_on_clouds() {
 vec4 view_texel(int k, vec2 resolution, float time) {
   View view = landscape_view(resolution, vec4(0.0), time);
   if (k == 0) return vec4(view.place, view.height, time);
-  if (k == 1) return vec4(view.forward, 0.0);
+  if (k == 1) return vec4(view.forward, tan(0.5 * radians(FIELD_OF_VIEW)));
   if (k == 2) return vec4(view.right, 0.0);
   vec3 sun = sun_direction(time);
   if (k == 6) return vec4(sun, 0.0);
