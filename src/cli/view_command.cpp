@@ -19,7 +19,7 @@
 #include "gpu/context.hpp"
 #include "image/atomic_file.hpp"
 #include "image/io.hpp"
-#include "image/tonemap.hpp"
+#include "realtime/landscape_picture.hpp"
 #include "view/film_maker.hpp"
 #include "view/recording.hpp"
 #include "view/viewer_screen.hpp"
@@ -41,6 +41,7 @@ struct ViewOptions {
   std::string path;
   std::string output = "frame_%04d.png";
   std::string renderer = "drawn";
+  std::vector<std::string> defines;
   std::string video;
   std::string record;
   std::string replay;
@@ -68,6 +69,10 @@ ViewerSettings viewer_settings(const Session& session, const ViewOptions& option
   settings.overrides = session.overrides();
   if (!options.size.empty()) settings.overrides.push_back(size_override(options.size));
   settings.camera = options.camera;
+  settings.shader = options.renderer == "shader";
+  settings.defines = options.defines;
+  LandscapeSettings checked;
+  for (const std::string& define : options.defines) set_knob(checked, define);
   return settings;
 }
 
@@ -85,20 +90,6 @@ FrameTimes frame_times(std::vector<double> milliseconds) {
   std::sort(milliseconds.begin(), milliseconds.end());
   return {milliseconds[milliseconds.size() / 2], milliseconds.back(),
           1000 * static_cast<double>(milliseconds.size()) / sum};
-}
-
-/// What stands in a target, as a picture.
-Image shown_image(const GpuTarget& screen) {
-  const std::vector<float> pixels = screen.read();
-  Image image(screen.width(), screen.height(), {"R", "G", "B"});
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      for (int c = 0; c < 3; ++c)
-        image.at(x, y, c) = pixels[4 * (static_cast<std::size_t>(image.height - 1 - y) *
-                                            static_cast<std::size_t>(image.width) +
-                                        static_cast<std::size_t>(x)) +
-                                   static_cast<std::size_t>(c)];
-  return image;
 }
 
 /// Pictures without a window: a still, a number of frames, a recorded session or a film.
@@ -140,19 +131,26 @@ class OffscreenRun {
     const bool still = !options_.screenshot.empty() || !options_.path.empty();
     settings_.detail = scene_detail(
         quality_of(options_.quality).value_or(still ? DrawingQuality::high : DrawingQuality::low));
-    if (!options_.screenshot.empty()) check_writable(options_.screenshot, picture_names);
+    if (!options_.screenshot.empty()) check_writable(options_.screenshot, endings());
     if (!options_.replay.empty()) replayed_ = read_recording(options_.replay);
     if (!options_.path.empty()) prepare_film();
+  }
+
+  /// The shader's pictures are colours of a display.
+  std::vector<std::string> endings() const {
+    return settings_.shader ? std::vector<std::string>{".png"} : picture_names;
   }
 
   void prepare_film() {
     film_.frames = FramePattern(options_.output);
     film_.path = read_camera_path(options_.path);
-    check_writable(film_.frames.name(0), picture_names);
+    check_writable(film_.frames.name(0), endings());
     if (!options_.frames.empty()) film_.range = parse_frame_range(options_.frames);
     film_.frames_per_second = options_.frames_per_second;
     film_.resume = options_.resume;
-    film_.renderer = options_.renderer == "traced" ? FilmRenderer::traced : FilmRenderer::drawn;
+    film_.renderer = options_.renderer == "traced"   ? FilmRenderer::traced
+                     : options_.renderer == "shader" ? FilmRenderer::shader
+                                                     : FilmRenderer::drawn;
     if (!options_.video.empty()) check_video_writable(options_.video, film_.frames);
   }
 
@@ -173,7 +171,8 @@ class OffscreenRun {
   int frame_count() const {
     if (!replayed_.empty()) return static_cast<int>(replayed_.size());
     if (!options_.frames.empty()) return parse_frame_range(options_.frames).count();
-    return options_.samples > 0 ? options_.samples : still_samples;
+    const int samples = options_.samples > 0 ? options_.samples : still_samples;
+    return settings_.shader ? shader_frames(samples) : samples;
   }
 
   void draw_frames(Viewer& viewer, Progress& progress) {
@@ -191,7 +190,8 @@ class OffscreenRun {
       const ProgressStage stage(progress, "drawing", count, "frames");
       while (frames_ < count) {
         Controls controls;
-        controls.seconds = 1.0 / 60;
+        // A still is of one moment.
+        controls.seconds = options_.frames.empty() ? 0 : 1.0 / 60;
         if (!replayed_.empty()) controls = replayed_[static_cast<std::size_t>(frames_)];
         GpuTimer timer;
         timer.begin();
@@ -212,12 +212,11 @@ class OffscreenRun {
   }
 
   void write_still(const Viewer& viewer, const GpuTarget* screen) {
-    const Image image = viewer.picture().linear_image();
     const std::string written = delivery_.write(options_.screenshot, [&](const std::string& path) {
-      if (extension_of(path) == ".exr") return write_exr(path, image);
-      const ToneMapping tone = at_exposure(viewer.tone(), viewer.exposure());
-      const Image display = screen != nullptr ? shown_image(*screen) : display_image(image, tone);
-      write_png(path, display, {.bits = 8, .srgb = true, .dither = screen == nullptr});
+      if (extension_of(path) == ".exr") return write_exr(path, viewer.picture().linear_image());
+      const Image display = screen != nullptr ? shown_image(*screen) : viewer.displayed();
+      const bool dither = screen == nullptr && !viewer.shader_shown();
+      write_png(path, display, {.bits = 8, .srgb = true, .dither = dither});
     });
     if (!written.empty()) outputs_.push_back(written);
   }
@@ -291,6 +290,15 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
       .add_option("--quality", options.quality,
                   "low, medium or high; else by the device, and high for pictures")
       ->check(CLI::IsMember({"low", "medium", "high"}));
+  command
+      .add_option("--renderer", options.renderer,
+                  "drawn; shader: the land as `wold shader` exports it; films: traced, too")
+      ->check(CLI::IsMember({"drawn", "shader", "traced"}));
+  command
+      .add_option("--define", options.defines,
+                  "Sets a knob of the shader; may be given more than once")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
   command.add_option("--record", options.record, "Write the session's controls to a file")
       ->type_name("FILE");
   const std::string offscreen = "Without a window";
@@ -318,9 +326,6 @@ void add_view_options(CLI::App& command, ViewOptions& options) {
   command.add_option("-o,--output", options.output, "Names of the frames, such as frame_%04d.png")
       ->type_name("PATTERN")
       ->group(film);
-  command.add_option("--renderer", options.renderer, "drawn in real time, or traced")
-      ->check(CLI::IsMember({"drawn", "traced"}))
-      ->group(film);
   command.add_option("--fps", options.frames_per_second, "Frames per second")
       ->check(CLI::Range(0.01, 1000.0))
       ->group(film);
@@ -344,6 +349,10 @@ void add_view(CLI::App& app, Session& session) {
     if (session.threads > 0) limit.emplace(session.threads);
     const bool offscreen = !options->screenshot.empty() || !options->frames.empty() ||
                            !options->path.empty() || !options->replay.empty();
+    if (options->renderer == "traced" && options->path.empty())
+      throw Error(ErrorKind::usage,
+                  "--renderer traced is for films, with --path; a traced still is `wold render`'s, "
+                  "and P traces in the window");
     if (offscreen)
       OffscreenRun(session, *options).run();
     else

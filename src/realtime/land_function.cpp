@@ -80,7 +80,7 @@ class Writer {
 
   LandFunction take() {
     out_.text =
-        "#include \"terrain/fractal_ground.glsl\"\n#include \"terrain/steps.glsl\"\n" + text_ +
+        "#include \"terrain/steps.glsl\"\n" + text_ +
         fmt::format("\nvec3 land(vec2 place, float spacing) {{\n  return {};\n}}\n", call(ground_));
     if (largest_ > 0) out_.largest_feature = largest_;
     return std::move(out_);

@@ -246,12 +246,14 @@ Landscape landscape_of(const Scene& scene, const LandscapeOptions& options, Prog
   Relief relief;
   float largest = land.largest_feature;
   if (options.source == LandSource::map) {
-    const TerrainResult finished = build_terrain(scene, progress);
+    std::optional<Heightfield> built;
+    if (options.finished == nullptr) built = build_terrain(scene, progress).field;
+    const Heightfield& finished = built ? *built : *options.finished;
     out.left_out.clear();
-    out.map = height_map(finished.field, options.map_size);
+    out.map = height_map(finished, options.map_size);
     out.land = "#include \"landscape/height_map.glsl\"\n";
-    relief = relief_of(finished.field.height);
-    largest = 0.25F * static_cast<float>(finished.field.size().x);
+    relief = relief_of(finished.height);
+    largest = 0.25F * static_cast<float>(finished.size().x);
   } else {
     std::vector<TerrainStep> steps = function_steps(scene, land);
     if (!out.left_out.empty()) out.stand_in = stand_in(scene, steps, progress);

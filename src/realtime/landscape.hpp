@@ -37,8 +37,9 @@ struct Landscape {
 
 struct LandscapeOptions {
   LandSource source = LandSource::function;
-  int map_size = 1025;      ///< samples on a side at most
-  std::string camera = {};  ///< one of the scene's; empty: the first
+  int map_size = 1025;                    ///< samples on a side at most
+  std::string camera = {};                ///< one of the scene's; empty: the first
+  const Heightfield* finished = nullptr;  ///< the land, where it is built already
 };
 
 /// Whether all steps that change the ground are functions of the place.

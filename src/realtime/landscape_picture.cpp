@@ -121,11 +121,6 @@ Image averaged(const std::vector<float>& values, int width, int height, int fact
   parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x)
       for (int c = 0; c < 3; ++c) {
-        if (factor == 1) {
-          const float value = values[at(x, y) + static_cast<std::size_t>(c)];
-          image.at(x, y, c) = std::clamp(value, 0.0F, 1.0F);
-          continue;
-        }
         double sum = 0;
         for (int j = 0; j < factor; ++j)
           for (int i = 0; i < factor; ++i) {
@@ -142,6 +137,17 @@ Image averaged(const std::vector<float>& values, int width, int height, int fact
 
 }  // namespace
 
+Image shown_image(const GpuTarget& target) {
+  const std::vector<float> values = target.read();
+  Image image(target.width(), target.height(), {"R", "G", "B"});
+  std::size_t k = 0;
+  for (int y = image.height - 1; y >= 0; --y)
+    for (int x = 0; x < image.width; ++x, k += 4)
+      for (int c = 0; c < 3; ++c)
+        image.at(x, y, c) = std::clamp(values[k + static_cast<std::size_t>(c)], 0.0F, 1.0F);
+  return image;
+}
+
 Image landscape_picture(const LandscapeDrawing& drawing, int width, int height, float time,
                         const Camera* camera, int rays_across) {
   const GpuTarget target(rays_across * width, rays_across * height,
@@ -151,6 +157,7 @@ Image landscape_picture(const LandscapeDrawing& drawing, int width, int height, 
     drawing.draw(target.width(), target.height(), time, *camera);
   else
     drawing.draw(target.width(), target.height(), time);
+  if (rays_across == 1) return shown_image(target);
   return averaged(target.read(), width, height, rays_across);
 }
 

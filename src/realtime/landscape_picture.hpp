@@ -40,6 +40,9 @@ class LandscapeDrawing {
   GpuTexture map_;
 };
 
+/// R, G, B of what was drawn into a target.
+Image shown_image(const GpuTarget& target);
+
 /// R, G, B as a display shows them: of each pixel the mean of the light of `rays_across` x
 /// `rays_across` rays. Throws Error(limit) where the driver can't draw so many pixels.
 Image landscape_picture(const LandscapeDrawing& drawing, int width, int height, float time,

@@ -53,4 +53,11 @@ bool same_sky(const Scene& a, const Scene& b) {
   return same(a.sky, b.sky);
 }
 
+bool same_but_sun(const SkySettings& a, SkySettings b) {
+  b.place = a.place;
+  b.time = a.time;
+  b.sun = a.sun;
+  return same(a, b);
+}
+
 }  // namespace wold

@@ -15,4 +15,7 @@ bool same_models(const Scene& a, const Scene& b);
 /// Whether both have the same sky.
 bool same_sky(const Scene& a, const Scene& b);
 
+/// Whether both skies are the same but for where the sun stands: time, place and its angles.
+bool same_but_sun(const SkySettings& a, SkySettings b);
+
 }  // namespace wold

@@ -43,6 +43,8 @@ constexpr auto table = std::to_array<Control>({
     {Action::darker, light, "darker", "-", "Darken the picture by a quarter stop.", true},
     {Action::path_trace, pictures, "path_trace", "P", "Path-trace this view, beside it."},
     {Action::test_rays, pictures, "test_rays", "L", "Show the paths of a few test rays."},
+    {Action::shader, pictures, "shader", "M",
+     "Show the land as its shader draws it, or the scene."},
     {Action::screenshot, pictures, "screenshot", "F12", "Write a picture of the view."},
     {Action::copy_camera, pictures, "copy_camera", "C Ctrl+C",
      "Copy the camera as TOML, to be put into the scene."},

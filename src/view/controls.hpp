@@ -41,6 +41,7 @@ enum class Action {
   darker,
   path_trace,
   test_rays,
+  shader,
   reload,
   copy_camera,
   add_path_key,

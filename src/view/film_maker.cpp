@@ -37,13 +37,12 @@ void look(Viewer& viewer, const SkySettings& scene, const PathView& view) {
   viewer.settle();
 }
 
-Image drawn(Viewer& viewer, int frames, Progress& progress) {
+void draw(Viewer& viewer, int frames, Progress& progress) {
   viewer.restart_picture();
   for (int k = 0; k < frames; ++k) {
     progress.check();
     viewer.draw();
   }
-  return viewer.picture().linear_image();
 }
 
 Image traced(Viewer& viewer, const FilmSettings& film, Progress& progress) {
@@ -65,18 +64,30 @@ void write_frame(const std::string& name, const Image& image, const ToneMapping&
             {.bits = 8, .srgb = true, .dither = true});
 }
 
+void make_frame(Viewer& viewer, const FilmSettings& film, const std::string& name, float stops,
+                Progress& progress) {
+  if (film.renderer == FilmRenderer::traced)
+    return write_frame(name, traced(viewer, film, progress), viewer.tone(), stops);
+  const bool shader = film.renderer == FilmRenderer::shader;
+  draw(viewer, shader ? shader_frames(film.samples) : film.samples, progress);
+  if (shader)
+    write_png(name, viewer.displayed(), {.bits = 8, .srgb = true});
+  else
+    write_frame(name, viewer.picture().linear_image(), viewer.tone(), stops);
+}
+
 std::vector<float> stops_at_keys(Viewer& viewer, const SkySettings& sky, const CameraPath& path,
                                  Progress& progress) {
   const ToneMapping tone = viewer.tone();
   std::vector<float> stops;
   viewer.resize(metering_size.x, metering_size.y);
   for (const CameraKey& key : path.keys) {
-    if (!tone.auto_exposure) {
+    if (!tone.auto_exposure || viewer.shader_wanted()) {
       stops.push_back(tone.exposure);
       continue;
     }
     look(viewer, sky, camera_at(path, key.time));
-    drawn(viewer, metering_frames, progress);
+    draw(viewer, metering_frames, progress);
     stops.push_back(tone.exposure + viewer.picture().metered_exposure());
   }
   return stops;
@@ -103,6 +114,7 @@ float exposure_at(const CameraPath& path, const std::vector<float>& stops, doubl
 int make_film(Viewer& viewer, const FilmSettings& film, Progress& progress) {
   const FrameRange range = film.range.value_or(all_frames(film.path, film.frames_per_second));
   const std::vector<int> frames = frames_to_make(film.frames, range, film.resume);
+  viewer.want_shader(film.renderer == FilmRenderer::shader);
   const SkySettings sky = viewer.scene().sky;
   const std::vector<float> stops = stops_at_keys(viewer, sky, film.path, progress);
   viewer.resize(film.size.x, film.size.y);
@@ -110,12 +122,12 @@ int make_film(Viewer& viewer, const FilmSettings& film, Progress& progress) {
   for (const int frame : frames) {
     const double time = film.path.begin() + frame / film.frames_per_second;
     const PathView view = camera_at(film.path, time);
+    const auto extra = static_cast<float>(view.exposure.value_or(0));
+    viewer.set_seconds(time - film.path.begin());
+    viewer.set_extra_stops(extra);
     look(viewer, sky, view);
-    const Image image = film.renderer == FilmRenderer::drawn ? drawn(viewer, film.samples, progress)
-                                                             : traced(viewer, film, progress);
-    write_frame(
-        film.frames.name(frame), image, viewer.tone(),
-        exposure_at(film.path, stops, time) + static_cast<float>(view.exposure.value_or(0)));
+    make_frame(viewer, film, film.frames.name(frame), exposure_at(film.path, stops, time) + extra,
+               progress);
     progress.advance();
   }
   return static_cast<int>(frames.size());

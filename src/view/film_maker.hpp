@@ -3,7 +3,7 @@
 //
 // Frame k shows the time begin + k / frames_per_second. The exposure is measured at each key of the
 // path and runs evenly between them, so that it neither flickers nor depends on which frames a
-// machine makes.
+// machine makes. The landscape shader sets its own by the light.
 
 #include <optional>
 #include <string>
@@ -16,7 +16,7 @@
 
 namespace wold {
 
-enum class FilmRenderer { drawn, traced };
+enum class FilmRenderer { drawn, shader, traced };
 
 struct FilmSettings {
   CameraPath path;

@@ -63,10 +63,14 @@ ViewedScene load_viewed_scene(const ViewerSettings& settings, Progress& progress
 }
 
 Viewer::Viewer(ViewerSettings settings, ViewedScene scene, Progress& progress)
-    : settings_(std::move(settings)), world_(std::move(scene.world)) {
+    : settings_(std::move(settings)),
+      world_(std::move(scene.world)),
+      shader_(settings_.defines, {.frame_time = settings_.shader_frame_time}),
+      shader_wanted_(settings_.shader) {
   note_file_times();
   drawing_ = std::make_unique<SceneDrawing>(*world_, settings_.detail, progress);
   edited_ = world_->scene();
+  usual_exposure_ = edited_.picture.exposure;
   readings_ = 1;
   take_over();
   place(scene.camera);
@@ -175,6 +179,7 @@ void Viewer::take_loaded() {
     use(std::get<0>(std::move(*outcome)));
     if (loading_from_file_) {
       edited_ = to_refine_ ? *to_refine_ : world_->scene();
+      usual_exposure_ = edited_.picture.exposure;
       loading_from_file_ = false;
       ++readings_;
     }
@@ -239,6 +244,7 @@ void Viewer::obey(const Controls& c) {
             return trace_test_rays(*world, sky, camera, size, test_ray_count, progress);
           });
   }
+  if (pressed(Action::shader)) want_shader(!shader_wanted_);
   if (pressed(Action::animate_sun)) animate_sun_ = !animate_sun_;
   double hours = 0;
   if (c.held.has(Action::later)) hours += hours_per_second * c.seconds;
@@ -276,16 +282,66 @@ void Viewer::frame(const Controls& controls) {
   const Ground& ground = world_->world().ground;
   pilot_ = flown(pilot_, controls,
                  {[&ground](DVec2 at) { return ground.detailed(at, 1).height; }, cameras_});
+  seconds_ += controls.seconds;
   if (width_ <= 0 || height_ <= 0) return;
   draw();
-  adapt_exposure(controls.seconds);
+  if (!shader_shown()) adapt_exposure(controls.seconds);
+}
+
+void Viewer::want_shader(bool wanted) {
+  shader_wanted_ = wanted;
+  if (!wanted && shader_.busy()) shader_.cancel();
+  restart_picture();
+}
+
+void Viewer::make_shader(bool wait) {
+  const Vec3 sun = drawing_->light().sky().sun_direction();
+  if (wait)
+    shader_.make(world_, edited_.sky, sun);
+  else
+    shader_.want(world_, edited_.sky, sun);
+}
+
+float Viewer::shader_stops() const {
+  // A fixed exposure is the scene's for its own light; the shader sets one that suits.
+  const ToneMapping& tone = edited_.picture;
+  return extra_stops_ + tone.exposure - (tone.auto_exposure ? 0 : usual_exposure_);
+}
+
+void Viewer::settle() {
+  if (shader_wanted_)
+    make_shader(true);
+  else
+    drawing_->settle(camera());
+}
+
+void Viewer::restart_picture() {
+  drawing_->picture().restart();
+  shader_.cut();
 }
 
 void Viewer::draw() {
+  if (shader_wanted_) {
+    try {
+      make_shader(false);
+      shader_.draw(camera(), {width_, height_}, static_cast<float>(seconds_), shader_stops());
+    } catch (const Error& error) {
+      shader_wanted_ = false;
+      shader_.forget();
+      if (error.kind() != ErrorKind::cancelled) notices_.push_back({error.message(), true});
+    }
+    if (shader_shown()) return;
+  }
   drawing_->draw(camera(), [this](const DrawView& view) { lines_.draw(view); });
 }
 
+Image Viewer::displayed(float stops) const {
+  if (shader_shown()) return shader_.picture();
+  return display_image(drawing_->picture().linear_image(), at_exposure(edited_.picture, stops));
+}
+
 void Viewer::show(int width, int height) const {
+  if (shader_shown()) return shader_.show(width, height);
   drawing_->picture().show(width, height, edited_.picture, exposure_);
 }
 

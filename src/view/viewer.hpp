@@ -18,6 +18,7 @@
 #include "view/controls.hpp"
 #include "view/line_drawing.hpp"
 #include "view/pilot.hpp"
+#include "view/shader_view.hpp"
 #include "view/traced_view.hpp"
 
 namespace wold {
@@ -27,9 +28,12 @@ struct ViewerSettings {
   std::vector<std::string> overrides;  ///< "path=value"
   std::string camera;                  ///< where to begin; empty: the first
   SceneDetail detail;
-  bool watch = true;        ///< loads the scene anew when its file changes
-  int traced_samples = 64;  ///< of P
-  int traced_size = 640;    ///< pixels on the longer side
+  bool watch = true;                 ///< loads the scene anew when its file changes
+  int traced_samples = 64;           ///< of P
+  int traced_size = 640;             ///< pixels on the longer side
+  bool shader = false;               ///< begins with the landscape shader's picture
+  std::vector<std::string> defines;  ///< its knobs, "NAME=VALUE"
+  float shader_frame_time = 0;       ///< ms that it may take, by drawing smaller; 0: any
 };
 
 /// What a user should be told.
@@ -37,6 +41,12 @@ struct ViewerNotice {
   std::string text;
   bool error = false;
 };
+
+/// Frames of the landscape shader, a quarter of the pixels each but in the first, whose mean is a
+/// picture of so many rays to each pixel.
+inline constexpr int shader_frames(int samples) {
+  return 1 + 4 * (samples - 1);
+}
 
 /// A scene ready to be looked at.
 struct ViewedScene {
@@ -50,14 +60,14 @@ ViewedScene load_viewed_scene(const ViewerSettings& settings, Progress& progress
 
 class Viewer {
  public:
-  /// Makes what draws the scene. Needs a current context. Throws as SceneDrawing.
+  /// Makes what draws the scene. Needs a current context. Throws as SceneDrawing and ShaderView.
   Viewer(ViewerSettings settings, ViewedScene scene, Progress& progress);
 
   /// Does what the controls ask for, takes what is ready, draws one frame.
   void frame(const Controls& controls);
   /// One frame more of the camera where it is, and nothing else.
   void draw();
-  void restart_picture() { drawing_->picture().restart(); }
+  void restart_picture();
   /// A window's size in pixels; 0 when it is hidden: then frames draw nothing.
   void resize(int width, int height);
   /// Brings the picture into the bound framebuffer of that size.
@@ -73,12 +83,27 @@ class Viewer {
   bool is_edited() const { return is_edited_; }
 
   const std::shared_ptr<PlantedWorld>& world() const { return world_; }
+  /// Of the scene as drawn, whether it is shown or the shader's.
   const PictureDrawing& picture() const { return drawing_->picture(); }
+  /// R, G, B as a display shows them at an exposure of these stops (of the shader, which sets its
+  /// own by the light: so many more than its own).
+  Image displayed(float stops) const;
+  Image displayed() const { return displayed(exposure_); }
+  /// Whether the landscape shader's picture is wanted, and shown.
+  bool shader_wanted() const { return shader_wanted_; }
+  bool shader_shown() const { return shader_wanted_ && shader_.ready(); }
+  /// Makes it, or not.
+  void want_shader(bool wanted);
+  const ShaderView& shader() const { return shader_; }
+  /// Where its clouds are: s of wind.
+  void set_seconds(double seconds) { seconds_ = seconds; }
+  /// Stops that a path's view is brighter than usual, of the shader's picture.
+  void set_extra_stops(float stops) { extra_stops_ = stops; }
   const SceneDrawing& drawing() const { return *drawing_; }
   const Pilot& pilot() const { return pilot_; }
   void place(const Camera& camera);
   /// Waits until all that the camera sees is there.
-  void settle() { drawing_->settle(camera()); }
+  void settle();
   Camera camera() const { return camera_of(pilot_); }
   /// m, above the ground.
   float height_above_ground() const;
@@ -125,6 +150,8 @@ class Viewer {
   void take_over();
   void note_file_times();
   void set_hour(double hours);
+  void make_shader(bool wait);
+  float shader_stops() const;
   void adapt_exposure(double seconds);
 
   ViewerSettings settings_;
@@ -136,6 +163,11 @@ class Viewer {
   BackgroundJob<std::shared_ptr<PlantedWorld>> loading_;
   std::optional<Scene> to_refine_;  // what is built once its preview is there
   bool loading_from_file_ = false;
+  ShaderView shader_;
+  bool shader_wanted_ = false;
+  double seconds_ = 0;
+  float extra_stops_ = 0;
+  float usual_exposure_ = 0;  // stops, of the scene's file
   TracedView traced_;
   BackgroundJob<TestRays> tracing_rays_;
   TestRays rays_;

@@ -81,7 +81,14 @@ void ViewerScreen::draw_traced() {
 void ViewerScreen::draw_work(float left_edge) {
   std::vector<Task> tasks;
   if (viewer_.loading()) tasks.push_back(task_of("Building the scene", viewer_.loading_report()));
-  if (draw_tasks(tasks, left_edge)) viewer_.cancel_loading();
+  const bool making_shader = viewer_.shader_wanted() && viewer_.shader().busy();
+  if (making_shader) tasks.push_back(task_of("Making the shader", viewer_.shader().report()));
+  const std::optional<std::size_t> cancelled = draw_tasks(tasks, left_edge);
+  if (!cancelled) return;
+  if (making_shader && *cancelled + 1 == tasks.size())
+    viewer_.want_shader(false);
+  else
+    viewer_.cancel_loading();
 }
 
 void ViewerScreen::take_messages() {

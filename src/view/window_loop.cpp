@@ -19,6 +19,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr float longest_shader_frame = 30;  // ms
+
 /// A window's life from loading to closing.
 class WindowLoop {
  public:
@@ -31,6 +33,7 @@ class WindowLoop {
     const DrawingQuality usual =
         window_.gpu().software ? DrawingQuality::low : DrawingQuality::medium;
     settings_.viewer.detail = scene_detail(settings.quality.value_or(usual));
+    settings_.viewer.shader_frame_time = longest_shader_frame;
     if (!settings.record.empty()) recorder_.emplace(settings.record);
     if (!settings.replay.empty()) replayed_ = read_recording(settings.replay);
   }
@@ -114,9 +117,8 @@ class WindowLoop {
     const FramePattern pattern(settings_.shots);
     int number = 1;
     while (std::filesystem::exists(pattern.name(number))) ++number;
-    const ToneMapping tone = at_exposure(viewer.tone(), viewer.exposure());
-    write_png(pattern.name(number), display_image(viewer.picture().linear_image(), tone),
-              {.bits = 8, .srgb = true, .dither = true});
+    write_png(pattern.name(number), viewer.displayed(),
+              {.bits = 8, .srgb = true, .dither = !viewer.shader_shown()});
     screen.messages().notice("saved " + pattern.name(number));
   }
 

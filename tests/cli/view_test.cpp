@@ -67,6 +67,17 @@ TEST(View, MakesAFilmAndOnlyTheFramesAskedFor) {
   EXPECT_EQ(place.files(), "f_01.png f_02.png path.toml scene.toml tree.lsys");
 }
 
+TEST(View, DrawsAStillByTheShader) {
+  const Workplace place;
+  const Outcome run = place.run({"view", "scene.toml", "--renderer", "shader", "--define",
+                                 "CLOUD_STEPS=8", "--screenshot", "still.png", "--samples", "2",
+                                 "--quality", "low", "--json", "--quiet"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto report = nlohmann::json::parse(run.out);
+  EXPECT_EQ(report["frames"], 5);
+  EXPECT_EQ(read_picture(place.path("still.png").string()).image.width, 96);
+}
+
 struct Mistake {
   const char* name;
   Words words;
@@ -100,6 +111,10 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"NoPath", {"--path", "none.toml"}, 1, {"none.toml"}},
         Mistake{"Pattern", {"--path", "bad.toml", "-o", "frame.png"}, 2, {"%04d"}},
         Mistake{"Recording", {"--replay", "bad.txt"}, 1, {"bad.txt:2", "'forward'"}},
+        Mistake{"Renderer", {"--renderer", "painted"}, 2, {"drawn", "shader", "traced"}},
+        Mistake{"TracedStill", {"--renderer", "traced", "--frames", "1"}, 2, {"--path", "P "}},
+        Mistake{"ShaderAsExr", {"--renderer", "shader", "--screenshot", "a.exr"}, 2, {".png"}},
+        Mistake{"Knob", {"--renderer", "shader", "--define", "OCTAVE=3"}, 2, {"'OCTAVES'"}},
         Mistake{"NoDesktop", {}, 1, {"DISPLAY", "--screenshot"}}),
     [](const auto& test) { return test.param.name; });
 

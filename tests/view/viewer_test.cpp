@@ -231,6 +231,77 @@ TEST_F(ViewerTest, CopiesTheCameraAsASceneHasIt) {
   EXPECT_FALSE(viewer_->take_clipboard());
 }
 
+double mean_of(const Image& image) {
+  double sum = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) sum += static_cast<double>(image.at(x, y, 1));
+  return sum / (image.width * image.height);
+}
+
+/// The first row from the top in the middle whose green is well below the top's.
+int horizon_of(const Image& image) {
+  for (int y = 1; y < image.height; ++y)
+    if (image.at(image.width / 2, y, 2) < 0.7F * image.at(image.width / 2, 0, 2)) return y;
+  return image.height;
+}
+
+TEST_F(ViewerTest, ShowsTheLandAsItsShaderDrawsItFromTheSameCamera) {
+  Camera camera = viewer_->camera();
+  camera.position.z += 60;
+  camera.direction = {0, 1, -0.1F};
+  viewer_->place(camera);
+  viewer_->frame({});
+  const int horizon = horizon_of(viewer_->displayed());
+  viewer_->frame(pressed(Action::shader));
+  EXPECT_TRUE(viewer_->shader_wanted());
+  ASSERT_TRUE(wait_until([&] { return viewer_->shader_shown(); }));
+  viewer_->frame({});
+  const Image shown = viewer_->displayed();
+  EXPECT_EQ(shown.width, 64);
+  EXPECT_GT(horizon, 4);
+  EXPECT_LT(horizon, 30);
+  EXPECT_NEAR(horizon_of(shown), horizon, 3);
+
+  viewer_->edit().picture.exposure -= 1;
+  viewer_->frame({});
+  const double darker = mean_of(viewer_->displayed());
+  EXPECT_LT(darker, 0.85 * mean_of(shown));
+  viewer_->edit().sky.sun = {-8, 180};
+  viewer_->edited(Viewer::Change::light);
+  viewer_->restart_picture();
+  viewer_->frame({});
+  EXPECT_LT(mean_of(viewer_->displayed()), 0.85 * darker);
+  EXPECT_FALSE(viewer_->shader().busy()) << "another sun needs no other shader";
+
+  viewer_->frame(pressed(Action::shader));
+  EXPECT_FALSE(viewer_->shader_shown());
+}
+
+TEST_F(ViewerTest, TheShaderFollowsOtherLandAndCanBeCancelled) {
+  viewer_->want_shader(true);
+  viewer_->frame({});
+  viewer_->want_shader(false);
+  viewer_->want_shader(true);
+  ASSERT_TRUE(wait_until([&] { return viewer_->shader_shown(); }));
+  viewer_->edit().steps[0].parameters.assign("height", 80.0);
+  viewer_->edited(Viewer::Change::everything);
+  bool made = false;
+  ASSERT_TRUE(wait_until([&] { return made = made || viewer_->shader().busy(); }));
+  ASSERT_TRUE(wait_until([&] { return !viewer_->shader().busy(); }));
+  EXPECT_TRUE(viewer_->shader_shown());
+  EXPECT_TRUE(viewer_->take_notices().empty());
+}
+
+TEST_F(ViewerTest, AKnobThatTheShaderDoesNotHaveIsAnError) {
+  settings_.defines = {"OCTAVE=3"};
+  try {
+    make();
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(error.message().find("'OCTAVES'"), std::string::npos) << error.message();
+  }
+}
+
 TEST_F(ViewerTest, TheScreenShowsErrorsUntilTheyAreSolved) {
   Interface interface;
   ViewerScreen screen(*viewer_, interface);
@@ -272,17 +343,18 @@ TEST(FilmMaker, FramesAndExposureFollowTheKeys) {
   EXPECT_EQ(exposure_at(path, stops, 9), 4);
 }
 
-TEST_F(ViewerTest, MakesFilmsOfEitherRendererAndGoesOnWithThem) {
+TEST_F(ViewerTest, MakesFilmsOfEachRendererAndGoesOnWithThem) {
   FilmSettings film;
   film.path = two_keys();
   film.size = {48, 27};
   film.samples = 2;
   film.frames_per_second = 10;
   const std::string base = testing::TempDir() + "film_";
-  for (const FilmRenderer renderer : {FilmRenderer::drawn, FilmRenderer::traced}) {
+  for (const FilmRenderer renderer :
+       {FilmRenderer::drawn, FilmRenderer::traced, FilmRenderer::shader}) {
     film.renderer = renderer;
     film.resume = false;
-    film.frames = FramePattern(base + (renderer == FilmRenderer::drawn ? "d" : "t") + "_%02d.png");
+    film.frames = FramePattern(base + std::to_string(static_cast<int>(renderer)) + "_%02d.png");
     for (int k = 0; k < 3; ++k) std::filesystem::remove(film.frames.name(k));
     Progress progress;
     EXPECT_EQ(make_film(*viewer_, film, progress), 3);

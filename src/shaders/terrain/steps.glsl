@@ -1,4 +1,5 @@
 // What terrain steps do with heights and their derivatives (vec3): the twins of terrain/.
+#include "terrain/fractal_ground.glsl"
 
 vec3 soft_threshold(float edge, float width, vec3 x) {
   if (width <= 0.0) return vec3(x.x >= edge ? 1.0 : 0.0, 0.0, 0.0);
