@@ -5,6 +5,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -34,6 +35,7 @@ struct ShaderOptions {
   std::string screenshot;
   std::string size = "640x360";
   float time = 0;
+  int samples = 4;
 };
 
 struct TargetName {
@@ -132,7 +134,8 @@ class ShaderRun {
     if (options_.screenshot.empty()) return "";
     const OffscreenContext context;
     const LandscapeDrawing drawing(landscape_tab(landscape), landscape.map);
-    const Image image = landscape_picture(drawing, size.x, size.y, options_.time);
+    const int across = static_cast<int>(std::ceil(std::sqrt(options_.samples)));
+    const Image image = landscape_picture(drawing, size.x, size.y, options_.time, nullptr, across);
     std::string written = delivery.write(options_.screenshot, [&](const std::string& path) {
       write_png(path, image, {.bits = 8, .srgb = true});
     });
@@ -183,6 +186,12 @@ void add_shader(CLI::App& app, Session& session) {
                    "Also draws what was exported, as PNG; needs OpenGL, no window")
       ->type_name("FILE");
   command->add_option("--size", options->size, "Of the screenshot, pixels")->type_name("WxH");
+  command
+      ->add_option("--samples", options->samples,
+                   "Of the screenshot, rays to each pixel, up to the next square; 1: as a page or "
+                   "Shadertoy shows it")
+      ->check(CLI::Range(1, 64))
+      ->type_name("N");
   command->add_option("--time", options->time, "Of the screenshot, seconds into the flight")
       ->type_name("S");
   session.add_scene_options(*command);
