@@ -234,6 +234,8 @@ void Viewer::obey(const Controls& c) {
   }
   if (pressed(Action::test_rays)) {
     const bool shown = !rays_.paths.empty();
+    if (!shown && shader_shown())
+      notices_.push_back({"paths of light are shown in the scene's picture: press M"});
     rays_ = {};
     lines_.set({});
     drawing_->picture().restart();
