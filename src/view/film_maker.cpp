@@ -1,8 +1,11 @@
 #include "view/film_maker.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.hpp"
 #include "image/atomic_file.hpp"
 #include "image/io.hpp"
 #include "image/tonemap.hpp"
@@ -76,6 +79,26 @@ void make_frame(Viewer& viewer, const FilmSettings& film, const std::string& nam
     write_frame(name, viewer.picture().linear_image(), viewer.tone(), stops);
 }
 
+double time_of(const FilmSettings& film, int frame) {
+  return film.path.begin() + frame / film.frames_per_second;
+}
+
+/// Nobody wants to see the land from below. Throws Error(input) for the first such frame.
+void check_above_ground(const Viewer& viewer, const FilmSettings& film, const FrameRange& range) {
+  const Ground& ground = viewer.world()->world().ground;
+  for (int frame = range.first; frame < range.last; ++frame) {
+    const double time = time_of(film, frame);
+    const Vec3 eye = camera_at(film.path, time).camera.position;
+    const float height = ground.base(DVec2(eye.x, eye.y)).height;
+    if (eye.z < height)
+      throw Error(
+          ErrorKind::input,
+          fmt::format("at {:.2f} s the path is below the ground: its height is {:.1f} m, the "
+                      "land's there {:.1f} m (positions are [east, north, up from zero])",
+                      time, eye.z, height));
+  }
+}
+
 std::vector<float> stops_at_keys(Viewer& viewer, const SkySettings& sky, const CameraPath& path,
                                  Progress& progress) {
   const ToneMapping tone = viewer.tone();
@@ -114,13 +137,14 @@ float exposure_at(const CameraPath& path, const std::vector<float>& stops, doubl
 int make_film(Viewer& viewer, const FilmSettings& film, Progress& progress) {
   const FrameRange range = film.range.value_or(all_frames(film.path, film.frames_per_second));
   const std::vector<int> frames = frames_to_make(film.frames, range, film.resume);
+  check_above_ground(viewer, film, range);
   viewer.want_shader(film.renderer == FilmRenderer::shader);
   const SkySettings sky = viewer.scene().sky;
   const std::vector<float> stops = stops_at_keys(viewer, sky, film.path, progress);
   viewer.resize(film.size.x, film.size.y);
   const ProgressStage stage(progress, "filming", static_cast<double>(frames.size()), "frames");
   for (const int frame : frames) {
-    const double time = film.path.begin() + frame / film.frames_per_second;
+    const double time = time_of(film, frame);
     const PathView view = camera_at(film.path, time);
     const auto extra = static_cast<float>(view.exposure.value_or(0));
     viewer.set_seconds(time - film.path.begin());

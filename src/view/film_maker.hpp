@@ -36,7 +36,8 @@ FrameRange all_frames(const CameraPath& path, double frames_per_second);
 float exposure_at(const CameraPath& path, const std::vector<float>& stops, double time);
 
 /// Draws the frames and writes each as soon as it is there. Returns how many were made. Throws
-/// Error(io), Error(cancelled): what is written stays.
+/// Error(input) for a path that leads below the ground, before any work; Error(io),
+/// Error(cancelled): what is written stays.
 int make_film(Viewer& viewer, const FilmSettings& settings, Progress& progress);
 
 }  // namespace wold

@@ -365,5 +365,23 @@ TEST_F(ViewerTest, MakesFilmsOfEachRendererAndGoesOnWithThem) {
   }
 }
 
+TEST_F(ViewerTest, APathBelowTheGroundIsToldBeforeAnyWork) {
+  FilmSettings film;
+  film.path = two_keys();
+  film.path.keys[1].position.z = -500;
+  film.size = {48, 27};
+  film.frames_per_second = 10;
+  film.frames = FramePattern(testing::TempDir() + "below_%02d.png");
+  std::filesystem::remove(film.frames.name(0));
+  Progress progress;
+  try {
+    make_film(*viewer_, film, progress);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(error.message().find("below the ground"), std::string::npos) << error.message();
+  }
+  EXPECT_FALSE(std::filesystem::exists(film.frames.name(0)));
+}
+
 }  // namespace
 }  // namespace wold

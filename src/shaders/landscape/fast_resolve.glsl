@@ -53,8 +53,9 @@ vec3 sharp_history(vec2 at, vec2 size) {
   return max(sum.rgb / sum.a, 0.0);
 }
 
-// Held to what is new around: their mean and twice their spread, to each side.
-vec3 held_to_new(vec3 before, ivec2 middle, ivec2 last_cell) {
+// Held to what is new around: their mean and `width` times their spread, to each side. Beside it,
+// how far that was moved: 1 for what is not to be seen any more.
+vec4 held_to_new(vec3 before, ivec2 middle, ivec2 last_cell, float width) {
   vec3 sum = vec3(0.0);
   vec3 squares = vec3(0.0);
   for (int j = -1; j <= 1; ++j)
@@ -65,9 +66,12 @@ vec3 held_to_new(vec3 before, ivec2 middle, ivec2 last_cell) {
       squares += c * c;
     }
   vec3 mean = sum / 9.0;
-  vec3 spread = 2.0 * sqrt(max(squares / 9.0 - mean * mean, 0.0));
-  vec3 held = clamp(1.0 - exp(-before), mean - spread, mean + spread);
-  return -log(1.0 - clamp(held, 0.0, 0.99999));
+  vec3 spread = width * sqrt(max(squares / 9.0 - mean * mean, 0.0));
+  vec3 shown = 1.0 - exp(-before);
+  vec3 held = clamp(shown, mean - spread, mean + spread);
+  vec3 moved = abs(held - shown);
+  float doubt = clamp(6.0 * max(moved.r, max(moved.g, moved.b)) - 0.1, 0.0, 1.0);
+  return vec4(-log(1.0 - clamp(held, 0.0, 0.99999)), doubt);
 }
 
 vec4 resolved_picture(vec2 pixel, vec2 resolution, float time) {
@@ -100,9 +104,17 @@ vec4 resolved_picture(vec2 pixel, vec2 resolution, float time) {
   if (samples < 0.5) return fresh;
   vec3 before = stays ? texelFetch(history, at, 0).rgb : sharp_history(then, resolution);
   if (!same_view) before *= frame_exposure() / last_exposure();
-  if (!still && !same_view) before = held_to_new(before, ivec2(floor(between + 0.5)), last_cell);
   samples = min(samples, most_samples - 1.0);
-  if (!is_new) return vec4(before, samples);
+  float doubt = 0.0;
+  if (!still && !same_view) {
+    // What flies past uncovers what was not seen.
+    float width = mix(2.0, 1.0, smoothstep(1.0, 8.0, length(then - pixel)));
+    vec4 held = held_to_new(before, ivec2(floor(between + 0.5)), last_cell, width);
+    before = held.rgb;
+    doubt = held.a;
+    samples *= 1.0 - doubt;
+  }
+  if (!is_new) return vec4(mix(before, around, doubt), samples);
   return vec4(mix(before, now, 1.0 / (samples + 1.0)), samples + 1.0);
 }
 
