@@ -186,7 +186,8 @@ class Page(unittest.TestCase):
     def export(cls, scene, *more):
         page, drawn = cls.folder / "page.html", cls.folder / "page.png"
         command = [WOLD, "shader", str(SOURCE / scene), "--target", "html", "-o", str(page),
-                   "--screenshot", str(drawn), "--size", "%dx%d" % SIZE, "--quiet", *more]
+                   "--screenshot", str(drawn), "--size", "%dx%d" % SIZE, "--samples", "1",
+                   "--quiet", *more]
         for knob in KNOBS:
             command += ["--define", knob]
         subprocess.run(command, check=True, timeout=300)
