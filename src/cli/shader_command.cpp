@@ -75,12 +75,12 @@ class ShaderRun {
   void run() {
     const auto start = std::chrono::steady_clock::now();
     LandscapeSettings checked;
-    for (const std::string& define : options_.defines) set_knob(checked, define);
+    set_knobs(checked, options_.defines);
     const IVec2 size = size_of(options_.size);
     const Scene scene = read_scene(options_.scene, session_.overrides());
     Progress progress = session_.progress();
     Landscape landscape = landscape_of(scene, landscape_options(scene), progress);
-    for (const std::string& define : options_.defines) set_knob(landscape.settings, define);
+    set_knobs(landscape.settings, options_.defines);
     const std::string text = export_shader(landscape, target_.target);
     if (options_.output.empty())
       options_.output = std::filesystem::path(options_.scene).stem().string() + target_.extension;

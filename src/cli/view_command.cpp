@@ -72,7 +72,7 @@ ViewerSettings viewer_settings(const Session& session, const ViewOptions& option
   settings.shader = options.renderer == "shader";
   settings.defines = options.defines;
   LandscapeSettings checked;
-  for (const std::string& define : options.defines) set_knob(checked, define);
+  set_knobs(checked, options.defines);
   return settings;
 }
 
@@ -131,6 +131,9 @@ class OffscreenRun {
     const bool still = !options_.screenshot.empty() || !options_.path.empty();
     settings_.detail = scene_detail(
         quality_of(options_.quality).value_or(still ? DrawingQuality::high : DrawingQuality::low));
+    if (!settings_.shader && !options_.defines.empty())
+      throw Error(ErrorKind::usage,
+                  "--define sets knobs of the shader: it wants --renderer shader");
     if (!options_.screenshot.empty()) check_writable(options_.screenshot, endings());
     if (!options_.replay.empty()) replayed_ = read_recording(options_.replay);
     if (!options_.path.empty()) prepare_film();
@@ -200,6 +203,7 @@ class OffscreenRun {
         else
           viewer.frame(controls);
         milliseconds_.push_back(timer.end());
+        check_notices(viewer);
         ++frames_;
         progress.advance();
       }
@@ -209,6 +213,12 @@ class OffscreenRun {
       interrupted_ = true;
     }
     if (!options_.screenshot.empty()) write_still(viewer, options_.interface ? &screen : nullptr);
+  }
+
+  /// What a window would tell and go on is an error of a picture.
+  static void check_notices(Viewer& viewer) {
+    for (const ViewerNotice& notice : viewer.take_notices())
+      if (notice.error) throw Error(ErrorKind::internal, notice.text);
   }
 
   void write_still(const Viewer& viewer, const GpuTarget* screen) {

@@ -168,6 +168,10 @@ void set_knob(LandscapeSettings& settings, std::string_view define) {
   }
 }
 
+void set_knobs(LandscapeSettings& settings, const std::vector<std::string>& defines) {
+  for (const std::string& define : defines) set_knob(settings, define);
+}
+
 std::vector<KnobLine> knob_lines(const LandscapeSettings& settings) {
   const ParameterSet set = describe(settings);
   const LandscapeSettings low = low_quality(settings);

@@ -70,6 +70,8 @@ LandscapeSettings low_quality(const LandscapeSettings& settings);
 /// Sets a knob from "NAME=VALUE". Throws Error(usage) for an unknown name, with the nearest one,
 /// and for a value that is none or out of range.
 void set_knob(LandscapeSettings& settings, std::string_view define);
+/// Sets one after the other. Throws as set_knob.
+void set_knobs(LandscapeSettings& settings, const std::vector<std::string>& defines);
 
 /// One knob as a line of GLSL: its value, what it does and its range.
 struct KnobLine {

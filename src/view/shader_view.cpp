@@ -18,7 +18,7 @@ namespace wold {
 ShaderView::ShaderView(std::vector<std::string> defines, const FastLandscapeSettings& settings)
     : defines_(std::move(defines)), settings_(settings) {
   LandscapeSettings checked;
-  for (const std::string& define : defines_) set_knob(checked, define);
+  set_knobs(checked, defines_);
 }
 
 void ShaderView::begin(const std::shared_ptr<PlantedWorld>& world, const SkySettings& sky) {
@@ -32,7 +32,7 @@ void ShaderView::begin(const std::shared_ptr<PlantedWorld>& world, const SkySett
     options.source = is_function(scene) ? LandSource::function : LandSource::map;
     options.finished = &world->world().ground.field();
     Landscape landscape = landscape_of(scene, options, progress);
-    for (const std::string& define : defines) set_knob(landscape.settings, define);
+    set_knobs(landscape.settings, defines);
     return landscape;
   });
 }

@@ -286,7 +286,15 @@ void Viewer::frame(const Controls& controls) {
                  {[&ground](DVec2 at) { return ground.detailed(at, 1).height; }, cameras_});
   seconds_ += controls.seconds;
   if (width_ <= 0 || height_ <= 0) return;
-  draw();
+  try {
+    draw();
+  } catch (const Error& error) {
+    if (!shader_wanted_) throw;
+    shader_wanted_ = false;
+    shader_.forget();
+    notices_.push_back({error.message(), true});
+    draw();
+  }
   if (!shader_shown()) adapt_exposure(controls.seconds);
 }
 
@@ -324,14 +332,8 @@ void Viewer::restart_picture() {
 
 void Viewer::draw() {
   if (shader_wanted_) {
-    try {
-      make_shader(false);
-      shader_.draw(camera(), {width_, height_}, static_cast<float>(seconds_), shader_stops());
-    } catch (const Error& error) {
-      shader_wanted_ = false;
-      shader_.forget();
-      if (error.kind() != ErrorKind::cancelled) notices_.push_back({error.message(), true});
-    }
+    make_shader(false);
+    shader_.draw(camera(), {width_, height_}, static_cast<float>(seconds_), shader_stops());
     if (shader_shown()) return;
   }
   drawing_->draw(camera(), [this](const DrawView& view) { lines_.draw(view); });

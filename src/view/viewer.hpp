@@ -65,7 +65,8 @@ class Viewer {
 
   /// Does what the controls ask for, takes what is ready, draws one frame.
   void frame(const Controls& controls);
-  /// One frame more of the camera where it is, and nothing else.
+  /// One frame more of the camera where it is, and nothing else. Throws what makes the shader fail;
+  /// `frame` tells it and goes on with the scene.
   void draw();
   void restart_picture();
   /// A window's size in pixels; 0 when it is hidden: then frames draw nothing.

@@ -115,6 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"TracedStill", {"--renderer", "traced", "--frames", "1"}, 2, {"--path", "P "}},
         Mistake{"ShaderAsExr", {"--renderer", "shader", "--screenshot", "a.exr"}, 2, {".png"}},
         Mistake{"Knob", {"--renderer", "shader", "--define", "OCTAVE=3"}, 2, {"'OCTAVES'"}},
+        Mistake{"KnobUnused", {"--frames", "1", "--define", "OCTAVES=3"}, 2, {"--renderer shader"}},
         Mistake{"NoDesktop", {}, 1, {"DISPLAY", "--screenshot"}}),
     [](const auto& test) { return test.param.name; });
 
