@@ -1,7 +1,9 @@
 // How like the drawn picture of a scene is to the traced one: ratios of mean colours, by what is
 // seen.
 //
-//   raster_likeness SCENE [WIDTHxHEIGHT [low|medium|high [SAMPLES]]]
+//   raster_likeness SCENE [WIDTHxHEIGHT [low|medium|high [SAMPLES [PICTURES.exr]]]]
+//
+// PICTURES.exr gets both, and of each pixel what it shows, how far off, and how much of it is lit.
 
 #include <fmt/format.h>
 
@@ -14,12 +16,29 @@
 
 #include "../../tests/raster/likeness.hpp"
 #include "gpu/context.hpp"
+#include "image/io.hpp"
 
 namespace wold {
 namespace {
 
+void write_pictures(const std::string& file, const Likeness& l) {
+  Image out(l.shown.width(), l.shown.height(),
+            {"R", "G", "B", "drawn.R", "drawn.G", "drawn.B", "shown", "distance", "lit"});
+  for (int y = 0; y < out.height; ++y)
+    for (int x = 0; x < out.width; ++x) {
+      int channel = 0;
+      for (const Image* image : {&l.traced, &l.drawn})
+        for (const char* name : {"R", "G", "B"})
+          out.at(x, y, channel++) = image->at(x, y, image->find(name));
+      out.at(x, y, channel++) = static_cast<float>(l.shown(x, y));
+      out.at(x, y, channel++) = l.distance(x, y);
+      out.at(x, y, channel) = l.lit(x, y);
+    }
+  write_exr(file, out);
+}
+
 void run(const std::string& file, const std::string& size_text, const std::string& quality_text,
-         const std::string& samples_text) {
+         const std::string& samples_text, const std::string& pictures) {
   IVec2 size(0);
   if (std::sscanf(size_text.c_str(), "%dx%d", &size.x, &size.y) != 2 || size.x < 8 || size.y < 8)
     throw Error(ErrorKind::usage, "a size is as 320x180, not " + size_text);
@@ -38,6 +57,7 @@ void run(const std::string& file, const std::string& size_text, const std::strin
   const Camera camera = world.camera(world.scene().camera(""), progress);
   const Likeness l =
       likeness(world, camera, size, static_cast<unsigned>(samples), quality->second, 16);
+  if (!pictures.empty()) write_pictures(pictures, l);
   struct Row {
     const char* name;
     Shown kind;
@@ -64,12 +84,13 @@ void run(const std::string& file, const std::string& size_text, const std::strin
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::cerr << "usage: raster_likeness SCENE [WIDTHxHEIGHT [low|medium|high [SAMPLES]]]\n";
+    std::cerr << "usage: raster_likeness SCENE [WIDTHxHEIGHT [low|medium|high [SAMPLES "
+                 "[PICTURES.exr]]]]\n";
     return 2;
   }
   try {
     wold::run(argv[1], argc > 2 ? argv[2] : "320x180", argc > 3 ? argv[3] : "medium",
-              argc > 4 ? argv[4] : "32");
+              argc > 4 ? argv[4] : "32", argc > 5 ? argv[5] : "");
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "error: " << error.what() << '\n';

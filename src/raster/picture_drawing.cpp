@@ -139,6 +139,28 @@ Image PictureDrawing::linear_image() const {
   return image;
 }
 
+Image PictureDrawing::distances() const {
+  Image image(width_, height_, {"Z"});
+  if (!last_camera_) return image;
+  const DrawView view = camera_view(*last_camera_, width_, height_);
+  std::vector<float> stored(image.pixels.size());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, surfaces_.id());
+  glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, stored.data());
+  const Vec2 range = stored_depth_range();
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) {
+      const int row = height_ - 1 - y;
+      const float depth =
+          range.x +
+          range.y * stored[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+                           static_cast<std::size_t>(x)];
+      const Vec2 at = 2.0F * (Vec2(x, row) + 0.5F) / Vec2(width_, height_) - 1.0F;
+      const Vec3 ray = view.forward + at.x * view.right + at.y * view.above;
+      image.at(x, y, 0) = depth > 0 ? view.nearest / depth * glm::length(ray) : 0.0F;
+    }
+  return image;
+}
+
 void PictureDrawing::show(int width, int height, const ToneMapping& mapping, float stops) const {
   glViewport(0, 0, width, height);
   glDisable(GL_DEPTH_TEST);

@@ -55,6 +55,8 @@ class PictureDrawing {
   /// R, G, B divided by `white_luminance`, and A, the part that is surface: as Film::image has
   /// them.
   Image linear_image() const;
+  /// Z: metres along each pixel's ray to what the last frame has there, 0 of the sky.
+  Image distances() const;
   /// Brings the picture into the framebuffer that is bound, of that size.
   void show(int width, int height, const ToneMapping& mapping, float stops) const;
   /// The exposure in stops that suits the picture: read back small, as `wold render` meters.

@@ -22,9 +22,10 @@ struct Likeness {
   Image drawn;
   Grid<Shown> shown;
   Grid<float> distance;  ///< m; 0 of sky
+  Grid<float> lit;       ///< of the rays to the ground, those whose place sees the sun
 };
 
-inline constexpr int likeness_rays = 5;  // of a pixel
+inline constexpr int likeness_rays = 16;  // of a pixel
 
 struct ShownByRays {
   int sky = 0;
@@ -39,15 +40,14 @@ inline ShownByRays shown_by_rays(const RayScene& scene, const CameraRays& rays, 
   RayCount count;
   const Vec3 sun = scene.world().sky.sun_direction();
   for (int k = 0; k < likeness_rays; ++k) {
-    const Vec2 off =
-        k == 0 ? Vec2(0.5F) : Vec2((k & 1) != 0 ? 0.1F : 0.9F, (k & 2) != 0 ? 0.1F : 0.9F);
-    const Ray ray = rays.ray(Vec2(static_cast<float>(x), static_cast<float>(y)) + off, Vec2(0.5F));
+    const Vec2 within = (Vec2(k % 4, k / 4) + 0.5F) / 4.0F;
+    const Ray ray = rays.ray(Vec2(x, y) + within, Vec2(0.5F));
     const Hit hit = scene.intersect(ray, 0, true, count);
     if (!hit.valid()) {
       ++out.sky;
       continue;
     }
-    if (k == 0) out.distance = glm::distance(hit.position, ray.origin);
+    out.distance += glm::distance(hit.position, ray.origin) / likeness_rays;
     if (hit.instance != Hit::ground) {
       ++out.plant;
       continue;
@@ -58,21 +58,53 @@ inline ShownByRays shown_by_rays(const RayScene& scene, const CameraRays& rays, 
   return out;
 }
 
-/// Ground is sunlit or in the shade where nearly all, or hardly any, of the rays within two pixels
-/// see the sun.
-inline Grid<Shown> shown_kinds(const Grid<ShownByRays>& rays) {
-  Grid<Shown> out(rays.width(), rays.height(), Shown::mixed);
-  for (int y = 0; y < rays.height(); ++y)
-    for (int x = 0; x < rays.width(); ++x) {
-      const ShownByRays& own = rays(x, y);
-      if (own.sky == likeness_rays) out(x, y) = Shown::sky;
-      if (own.plant == likeness_rays) out(x, y) = Shown::plant;
-      if (own.ground < likeness_rays) continue;
+/// What frames of a drawing show in a pixel, each at another place within it.
+struct ShownByFrames {
+  int sky = 0;
+  int ground = 0;
+  int frames = 0;
+};
+
+/// Adds the last frame. What lies on the ground, but for a few centimetres or most of a pixel, is
+/// ground.
+inline void add_frame(Grid<ShownByFrames>& shown, const PictureDrawing& picture,
+                      const CameraRays& rays, float pixel_angle, const Ground& ground) {
+  const Image distances = picture.distances();
+  parallel_for(0, shown.height(), [&](int y) {
+    for (int x = 0; x < shown.width(); ++x) {
+      ShownByFrames& pixel = shown(x, y);
+      ++pixel.frames;
+      const float distance = distances.at(x, y, 0);
+      if (distance <= 0) {
+        ++pixel.sky;
+        continue;
+      }
+      const Ray ray = rays.ray(Vec2(x, y) + 0.5F, Vec2(0.5F));
+      const Vec3 place = ray.origin + distance * ray.direction;
+      const float pixel_size = pixel_angle * distance;
+      const GroundSample land = ground.detailed(DVec2(place.x, place.y), pixel_size);
+      const float above = (place.z - land.height) * normal_of(land.gradient).z;
+      if (above < 0.03F + 0.7F * pixel_size) ++pixel.ground;
+    }
+  });
+}
+
+/// What both show alone. Ground is sunlit or in the shade where nearly all, or hardly any, of the
+/// rays within two pixels see the sun.
+inline Grid<Shown> shown_kinds(const Grid<ShownByRays>& traced, const Grid<ShownByFrames>& drawn) {
+  Grid<Shown> out(traced.width(), traced.height(), Shown::mixed);
+  for (int y = 0; y < traced.height(); ++y)
+    for (int x = 0; x < traced.width(); ++x) {
+      const ShownByRays& rays = traced(x, y);
+      const ShownByFrames& frames = drawn(x, y);
+      if (rays.sky == likeness_rays && frames.sky == frames.frames) out(x, y) = Shown::sky;
+      if (rays.plant == likeness_rays && frames.sky + frames.ground == 0) out(x, y) = Shown::plant;
+      if (rays.ground < likeness_rays || frames.ground < frames.frames) continue;
       int ground = 0;
       int lit = 0;
       for (int j = -2; j <= 2; ++j)
         for (int i = -2; i <= 2; ++i) {
-          const ShownByRays& near = rays.clamped(x + i, y + j);
+          const ShownByRays& near = traced.clamped(x + i, y + j);
           ground += near.ground;
           lit += near.lit;
         }
@@ -97,17 +129,25 @@ inline Likeness likeness(PlantedWorld& world, const Camera& camera, IVec2 size, 
   out.traced = film.image();
   Grid<ShownByRays> by_rays(size.x, size.y);
   out.distance = Grid<float>(size.x, size.y);
+  out.lit = Grid<float>(size.x, size.y);
   parallel_for(0, size.y, [&](int y) {
     for (int x = 0; x < size.x; ++x) {
-      by_rays(x, y) = shown_by_rays(*traced.rays, rays, x, y);
-      out.distance(x, y) = by_rays(x, y).distance;
+      const ShownByRays shown = shown_by_rays(*traced.rays, rays, x, y);
+      by_rays(x, y) = shown;
+      out.distance(x, y) = shown.distance;
+      out.lit(x, y) = static_cast<float>(shown.lit) / static_cast<float>(std::max(shown.ground, 1));
     }
   });
-  out.shown = shown_kinds(by_rays);
   SceneDrawing drawing(world, scene_detail(quality), progress);
   drawing.resize(size.x, size.y);
   drawing.settle(camera);
-  for (int k = 0; k < frames; ++k) drawing.draw(camera);
+  Grid<ShownByFrames> by_frames(size.x, size.y);
+  const float pixel_angle = camera_view(camera, size.x, size.y).pixel_angle;
+  for (int k = 0; k < frames; ++k) {
+    drawing.draw(camera);
+    add_frame(by_frames, drawing.picture(), rays, pixel_angle, world.world().ground);
+  }
+  out.shown = shown_kinds(by_rays, by_frames);
   out.drawn = drawing.picture().linear_image();
   return out;
 }

@@ -87,6 +87,9 @@ TEST_P(PictureOf, ASurfaceIsSeenThroughTheAir) {
     });
   const Image image = picture.linear_image();
   EXPECT_EQ(image.at(5, 5, 3), 1);
+  const Ray middle = CameraRays(camera, width, height).ray(Vec2(5.5F), Vec2(0.5F));
+  const float away = depth / glm::dot(middle.direction, camera.direction);
+  EXPECT_NEAR(picture.distances().at(5, 5, 0), away, 1e-3F * away);
   EXPECT_LT(largest_error(
                 image,
                 [&](const Ray& ray) {
@@ -135,6 +138,15 @@ TEST_F(Display, ToneMapsAreTheirTwins) {
             << static_cast<int>(op) << ' ' << color.x;
     }
   }
+}
+
+TEST_F(Display, TheSkyIsAtNoDistance) {
+  SceneLight light(Sky{}, {.size = 0});
+  PictureDrawing picture(light);
+  picture.resize(width, height);
+  EXPECT_EQ(picture.distances().at(1, 1, 0), 0) << "before any frame";
+  picture.draw(some_camera(), [](const DrawView&, const SceneLight*) {});
+  EXPECT_EQ(picture.distances().at(1, 1, 0), 0);
 }
 
 TEST_F(Display, AWindowOfNoSizeIsOnePixel) {
