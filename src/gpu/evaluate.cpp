@@ -14,7 +14,7 @@ namespace wold {
 namespace {
 
 constexpr int row_length = 1024;
-constexpr int first_unit = 14;  // of the points' textures
+constexpr int first_unit = 30;  // of the points' textures: out of the way of all others
 
 GpuTexture texture_of(std::span<const Vec4> points, int width, int height) {
   std::vector<float> texels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);

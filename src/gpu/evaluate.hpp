@@ -15,8 +15,7 @@ namespace wold {
 /// `body` is GLSL that may include files and defines `vec4 evaluate(vec4 a, vec4 b)`; it is called
 /// with a[k] and b[k] (b may be empty: zero). Bits of unsigned integers may travel as floats
 /// (uintBitsToFloat) as long as they are no NaN. `prepare` sets uniforms and textures, on units 0
-/// to
-/// 13. Throws as GpuProgram.
+/// to 29. Throws as GpuProgram.
 std::vector<Vec4> evaluate_shader(std::string_view body, std::span<const Vec4> a,
                                   std::span<const Vec4> b = {},
                                   std::span<const ShaderDefine> defines = {},

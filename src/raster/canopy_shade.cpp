@@ -18,6 +18,7 @@ struct Crown {
   float radius = 0;
   float foot = 0;
   float top = 0;
+  Vec3 scattering{0};  // of the light on leaves, the part that goes on, either side
 };
 
 Crown crown_of(const Model& model, const std::vector<SurfaceMaterial>& materials) {
@@ -26,9 +27,12 @@ Crown crown_of(const Model& model, const std::vector<SurfaceMaterial>& materials
   double area = 0;
   double foot_sum = 0;
   double spread = 0;
+  DVec3 scattered(0);
   const auto& mesh = model.mesh;
   for (std::size_t p = 0; p < mesh.parts.size(); ++p) {
-    if (materials[model.part_materials[p]].settings().transmission == Vec3(0)) continue;
+    const Material& leaf = materials[model.part_materials[p]].settings();
+    if (leaf.transmission == Vec3(0)) continue;
+    const DVec3 scattering(0.5F * (leaf.color1 + leaf.color2) + leaf.transmission);
     const std::size_t end =
         p + 1 < mesh.parts.size() ? mesh.parts[p + 1].first_triangle : mesh.triangles.size();
     for (std::size_t t = mesh.parts[p].first_triangle; t < end; ++t) {
@@ -38,12 +42,14 @@ Crown crown_of(const Model& model, const std::vector<SurfaceMaterial>& materials
       const Vec3 c = mesh.positions[corner.z];
       const double part = 0.5 * static_cast<double>(glm::length(glm::cross(b - a, c - a)));
       area += part;
+      scattered += part * scattering;
       foot_sum += part * static_cast<double>(a.z);
       spread += part * static_cast<double>(a.x * a.x + a.y * a.y);
     }
   }
   if (!(area > 0)) return crown;
   crown.leaf_area = static_cast<float>(area);
+  crown.scattering = glm::min(Vec3(scattered / area), Vec3(1));
   // A disc's mean square distance is half the square of its radius.
   crown.radius = static_cast<float>(std::sqrt(2 * spread / area));
   const auto middle = static_cast<float>(foot_sum / area);
@@ -59,6 +65,7 @@ struct Cells {
   std::vector<float> area;  // m² of leaves over each cell
   std::vector<float> foot;  // weighted by area
   std::vector<float> top;
+  std::vector<Vec3> scattered;
 };
 
 /// Adds a crown as a disc, spread evenly over the cells whose middle it covers.
@@ -81,6 +88,7 @@ void add_crown(Cells& cells, const Crown& crown, const ModelInstance& plant) {
       cells.area[k] += per_cell;
       cells.foot[k] += per_cell * (plant.position.z + crown.foot * plant.scale);
       cells.top[k] += per_cell * (plant.position.z + crown.top * plant.scale);
+      cells.scattered[k] += per_cell * crown.scattering;
     }
 }
 
@@ -108,10 +116,6 @@ std::vector<float> box_means(const std::vector<float>& values, int width, int he
   return out;
 }
 
-}  // namespace
-
-namespace {
-
 std::vector<Crown> crowns_of(const World& world) {
   std::vector<Crown> crowns;
   for (const Model& model : world.models) crowns.push_back(crown_of(model, world.materials));
@@ -126,14 +130,22 @@ Cells empty_cells(DVec2 low, DVec2 size, double cell) {
   cells.height = std::max(1, static_cast<int>(std::ceil(size.y / cell)));
   const auto count = static_cast<std::size_t>(cells.width) * static_cast<std::size_t>(cells.height);
   for (auto* list : {&cells.area, &cells.foot, &cells.top}) list->assign(count, 0);
+  cells.scattered.assign(count, Vec3(0));
   return cells;
 }
 
-CanopyShade shade_of(const Cells& cells) {
+CanopyShade empty_shade(const Cells& cells) {
   CanopyShade shade;
   shade.width = cells.width;
   shade.height = cells.height;
   shade.texels.reserve(4 * cells.area.size());
+  const DVec2 scale = 1.0 / (cells.cell * DVec2(cells.width, cells.height));
+  shade.place = Vec4(Vec2(scale), Vec2(-cells.low * scale));
+  return shade;
+}
+
+CanopyShade shade_of_crowns(const Cells& cells) {
+  CanopyShade shade = empty_shade(cells);
   const int reach = std::max(1, static_cast<int>(std::lround(wide / cells.cell)));
   const std::vector<float> around =
       box_means(box_means(cells.area, cells.width, cells.height, reach, true), cells.width,
@@ -142,8 +154,17 @@ CanopyShade shade_of(const Cells& cells) {
   for (std::size_t k = 0; k < cells.area.size(); ++k)
     for (const float sum : {cells.area[k], cells.foot[k], cells.top[k], around[k]})
       shade.texels.push_back(sum / cell_area);
-  const DVec2 scale = 1.0 / (cells.cell * DVec2(cells.width, cells.height));
-  shade.place = Vec4(Vec2(scale), Vec2(-cells.low * scale));
+  return shade;
+}
+
+CanopyShade shade_of_small_plants(const Cells& cells) {
+  CanopyShade shade = empty_shade(cells);
+  const auto cell_area = static_cast<float>(cells.cell * cells.cell);
+  for (std::size_t k = 0; k < cells.area.size(); ++k) {
+    const Vec3& scattered = cells.scattered[k];
+    for (const float sum : {cells.area[k], scattered.x, scattered.y, scattered.z})
+      shade.texels.push_back(sum / cell_area);
+  }
   return shade;
 }
 
@@ -162,7 +183,7 @@ CanopyShade canopy_shade(const World& world, float least_height) {
     add_crown(cells, crown, plant);
     any = true;
   }
-  return any ? shade_of(cells) : CanopyShade{};
+  return any ? shade_of_crowns(cells) : CanopyShade{};
 }
 
 CanopyShade undergrowth_shade(const World& world, std::span<const ModelInstance> plants, DVec2 eye,
@@ -176,7 +197,7 @@ CanopyShade undergrowth_shade(const World& world, std::span<const ModelInstance>
     const Crown& crown = crowns[plant.model];
     if (crown.leaf_area > 0 && std::max(off.x, off.y) < half_width) add_crown(cells, crown, plant);
   }
-  return shade_of(cells);
+  return shade_of_small_plants(cells);
 }
 
 }  // namespace wold

@@ -19,8 +19,9 @@ namespace wold {
 struct CanopyShade {
   int width = 0;
   int height = 0;
-  /// Four for each: L, and L times the height of the foot and of the top (m), so that what is
-  /// looked up between two of them is right; L as the mean over what stands around.
+  /// Four for each. Of crowns: L, and L times the height of the foot and of the top (m), so that
+  /// what is looked up between two of them is right; L as the mean over what stands around.
+  /// Of small plants: L, and L times the part of the light that their leaves scatter, by colour.
   std::vector<float> texels;
   Vec4 place{0};  ///< texture coordinate = zw + xy · place; all 0: no crowns
 };

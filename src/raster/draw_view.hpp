@@ -16,6 +16,7 @@ struct DrawView {
   Vec3 eye{0};                ///< the camera's place, m; for shadows too: detail is chosen by it
   float pixel_angle = 1e-3F;  ///< radians between the camera's pixels
   bool depth_only = false;    ///< a shadow map: no colours
+  bool without_land = false;  ///< a coarse one, in which the land would shade itself
   /// World half-spaces a·p + d >= 0 that hold all that is seen: left, right, bottom, top, near.
   std::array<Vec4, 5> planes{};
   // Of the camera: the ray through a point of the picture, x and y from -1 to 1 to the right and

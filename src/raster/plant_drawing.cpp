@@ -145,6 +145,7 @@ void PlantDrawing::draw_batch(const GpuProgram& program, const PlantBatch& batch
   program.set("first_material", model.first_material);
   program.set("crown_reach", sizes_[batch.model].radius);
   program.set("plant_height", sizes_[batch.model].height);
+  program.set("crown_extinction", levels.extinction);
   plant_attributes(model.vertices, drawn_, batch.first);
   model.vertices.bind();
   const std::size_t offset = level.first_index * sizeof(std::uint32_t);

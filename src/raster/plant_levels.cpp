@@ -51,6 +51,7 @@ class Builder {
       sheet_.push_back(materials[m].settings().transmission != Vec3(0));
     }
     openness_.emplace(mesh_, sheet_);
+    levels_.extinction = openness_->mean_extinction();
   }
 
   PlantLevels build() {

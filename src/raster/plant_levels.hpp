@@ -56,6 +56,7 @@ struct PlantLevels {
   std::vector<PlantLevel> coarse;
   float fine_pixel = 0;  ///< m; a pixel up to this shows `fine`
   float area = 0;        ///< m² of leaves and of half the wood: what is seen from all sides
+  float extinction = 0;  ///< 1/m, PlantOpenness::mean_extinction
   Vec3 low{0};
   Vec3 high{0};
 

@@ -79,6 +79,17 @@ float PlantOpenness::extinction(Vec3 place) const {
   return extinction_[cell(static_cast<int>(at.x), static_cast<int>(at.y), static_cast<int>(at.z))];
 }
 
+float PlantOpenness::mean_extinction() const {
+  // Leaf area of a cell goes as its extinction.
+  double sum = 0;
+  double squares = 0;
+  for (const float e : extinction_) {
+    sum += static_cast<double>(e);
+    squares += static_cast<double>(e) * static_cast<double>(e);
+  }
+  return sum > 0 ? static_cast<float>(squares / sum) : 0.0F;
+}
+
 Vec4 PlantOpenness::gather(Vec3 place) const {
   const float step = 0.8F * std::min({cell_size_.x, cell_size_.y, cell_size_.z});
   Vec4 sum(0);

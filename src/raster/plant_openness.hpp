@@ -21,6 +21,8 @@ class PlantOpenness {
 
   /// Moment in x, y, z, mean in w, at a place of the model.
   Vec4 at(Vec3 place) const;
+  /// Extinction as the mean over leaves, 1/m.
+  float mean_extinction() const;
 
  private:
   float extinction(Vec3 place) const;

@@ -91,7 +91,7 @@ void SceneDrawing::draw(const Camera& camera, const std::function<void(const Dra
   if (!finding_near_.busy() && (!near_eye_ || glm::distance(eye, *near_eye_) > near_step))
     find_near_plants(camera);
   picture_.draw(camera, [&](const DrawView& view, const SceneLight* light) {
-    terrain_.draw(view, light);
+    if (!view.without_land) terrain_.draw(view, light);
     plants_.draw(view, light);
     if (extra && light != nullptr) extra(view);
   });
@@ -126,6 +126,7 @@ void SceneDrawing::replace(const PlantedWorld& world, Progress& progress) {
 
 void SceneDrawing::shade_land(const Ground& ground) {
   light_.terrain_shade().set(SkyVisibility(ground));
+  light_.set_land_colors(land_colors(ground));
   set_sun();
 }
 

@@ -49,6 +49,22 @@ std::array<Vec3, 9> sky_harmonics(const Sky& sky) {
   return out;
 }
 
+Vec3 radiance_below(const Sky& sky) {
+  constexpr int rows = 32;
+  constexpr int columns = 64;
+  DVec3 sum(0);
+  for (int j = 0; j < rows; ++j) {
+    // Even by cosine: in the square of the sine.
+    const float z = -std::sqrt((static_cast<float>(j) + 0.5F) / rows);
+    const float across = std::sqrt(1 - z * z);
+    for (int i = 0; i < columns; ++i) {
+      const float turn = 2 * pi * (static_cast<float>(i) + 0.5F) / columns;
+      sum += DVec3(sky.radiance({across * std::cos(turn), across * std::sin(turn), z}));
+    }
+  }
+  return Vec3(sum / double{rows * columns});
+}
+
 GpuTexture sky_texture(const Grid<Vec3>& nodes) {
   std::vector<float> texels;
   texels.reserve(static_cast<std::size_t>(nodes.width()) *
@@ -69,11 +85,13 @@ GpuTexture sky_texture(const Grid<Vec3>& nodes) {
 SceneLight::SceneLight(Sky sky, const ShadowSettings& shadows)
     : sky_(std::move(sky)), shadows_(shadows) {
   set_sky(sky_);
+  set_land_colors({});
 }
 
 void SceneLight::set_sky(Sky sky) {
   sky_ = std::move(sky);
   harmonics_ = sky_harmonics(sky_);
+  below_ = radiance_below(sky_);
   table_ = sky_texture(*sky_.parts().radiance);
 }
 
@@ -93,6 +111,15 @@ void SceneLight::set_undergrowth(const CanopyShade& undergrowth) {
   undergrowth_map_.upload(undergrowth.texels);
 }
 
+void SceneLight::set_land_colors(const LandColors& colors) {
+  land_place_ = colors.place;
+  const Grid<Vec3>& grid = colors.reflectance;
+  std::vector<float> texels;
+  for (const Vec3& c : grid.values()) texels.insert(texels.end(), {c.x, c.y, c.z, 1});
+  land_colors_ = GpuTexture(grid.width(), grid.height(), {.format = PixelFormat::rgba32f});
+  land_colors_.upload(texels);
+}
+
 void SceneLight::apply(const GpuProgram& program) const {
   program.set("sun_direction", sky_.sun_direction());
   program.set("sun_irradiance", sky_.sun_visible() ? sky_.sun_irradiance() : Vec3(0));
@@ -107,6 +134,10 @@ void SceneLight::apply(const GpuProgram& program) const {
   program.set("undergrowth_place", undergrowth_place_);
   if (undergrowth_map_) undergrowth_map_.bind(first_light_unit - 1);
   terrain_shade_.apply(program, first_light_unit + 3);
+  program.set("radiance_below", below_);
+  program.set("land_colors", first_light_unit + 3 + TerrainShade::units);
+  program.set("land_place", land_place_);
+  land_colors_.bind(first_light_unit + 3 + TerrainShade::units);
 }
 
 }  // namespace wold

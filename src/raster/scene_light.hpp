@@ -7,6 +7,7 @@
 #include "gpu/objects.hpp"
 #include "raster/canopy_shade.hpp"
 #include "raster/draw_view.hpp"
+#include "raster/land_colors.hpp"
 #include "raster/shadow_maps.hpp"
 #include "raster/terrain_shade.hpp"
 #include "sky/sky.hpp"
@@ -19,6 +20,8 @@ inline constexpr int first_light_unit = 8;
 /// Irradiance in lx of a surface by its direction, as nine spherical harmonics with the constants
 /// of the cosine and of the bands in them: Ramamoorthi, Hanrahan, SIGGRAPH 2001.
 std::array<Vec3, 9> sky_harmonics(const Sky& sky);
+/// Mean radiance below the horizon, by cosine to the nadir, cd/m².
+Vec3 radiance_below(const Sky& sky);
 
 class SceneLight {
  public:
@@ -28,6 +31,7 @@ class SceneLight {
   void set_sky(Sky sky);
   void set_canopy(const CanopyShade& canopy);
   void set_undergrowth(const CanopyShade& undergrowth);
+  void set_land_colors(const LandColors& colors);
   ShadowMaps& shadows() { return shadows_; }
   /// What the land hides of sun and sky, beyond shadow maps.
   TerrainShade& terrain_shade() { return terrain_shade_; }
@@ -44,11 +48,14 @@ class SceneLight {
  private:
   Sky sky_;
   std::array<Vec3, 9> harmonics_{};
+  Vec3 below_{0};  // cd/m²
   GpuTexture table_;
   GpuTexture canopy_map_;
   Vec4 canopy_place_{0};
   GpuTexture undergrowth_map_;
   Vec4 undergrowth_place_{0};
+  GpuTexture land_colors_;
+  Vec4 land_place_{0};
   ShadowMaps shadows_;
   TerrainShade terrain_shade_;
   int frame_ = 0;

@@ -10,6 +10,7 @@ namespace wold {
 
 namespace {
 
+constexpr int with_land = 2;        // cascades
 constexpr float leave = 0.18F;      // of the radius: how far the eye goes before a map is drawn
 constexpr float least_depth = 600;  // m, half of what a map holds along the light
 constexpr float blur_texels = 0.8F;
@@ -47,8 +48,9 @@ void ShadowMaps::update(const DrawView& camera, Vec3 towards_sun,
     centres_[c] = camera.eye;
     drawn_[c] = true;
     const float texel = 2 * r / static_cast<float>(settings_.size);
-    const DrawView view = shadow_view(camera, snapped(camera.eye, towards_sun, texel), towards_sun,
-                                      {r, r, std::max(least_depth, 3 * r)});
+    DrawView view = shadow_view(camera, snapped(camera.eye, towards_sun, texel), towards_sun,
+                                {r, r, std::max(least_depth, 3 * r)});
+    view.without_land = k >= with_land;
     matrices_[c] = view.view_projection;
     atlas_.bind();
     const int x = (k & 1) * settings_.size;
@@ -71,10 +73,15 @@ void ShadowMaps::apply(const GpuProgram& program, int unit, float turn) const {
   if (!any) return;
   atlas_.depth().bind(unit);
   std::array<float, shadow_cascades> texels{};
-  for (int k = 0; k < shadow_cascades; ++k)
-    texels[static_cast<std::size_t>(k)] = 2 * radius(k) / static_cast<float>(settings_.size);
+  std::array<float, shadow_cascades> lifts{};
+  for (int k = 0; k < shadow_cascades; ++k) {
+    const auto c = static_cast<std::size_t>(k);
+    texels[c] = 2 * radius(k) / static_cast<float>(settings_.size);
+    lifts[c] = k < with_land ? texels[c] : 0;
+  }
   program.set("shadow_matrices", std::span<const Mat4>(matrices_));
   program.set("shadow_texels", std::span<const float>(texels));
+  program.set("shadow_lifts", std::span<const float>(lifts));
   program.set("shadow_blur", 2 * blur_texels / static_cast<float>(settings_.size));
   program.set("shadow_turn", turn);
   program.set("depth_range", stored_depth_range());

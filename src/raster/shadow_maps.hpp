@@ -5,6 +5,10 @@
 // A map is a box about the place where the eye was when it was drawn; it is drawn anew once the eye
 // has left its middle or the sun has moved, and its middle lies on whole texels, so that shadows
 // neither swim nor cost anything while one only looks around.
+//
+// The finer two have the land in them, and what is lit is lifted off it by a texel. In the coarser
+// that would part trees from their shadows; there the land's own shade is that of
+// raster/sun_shadow_map.hpp alone.
 
 #include <array>
 #include <functional>

@@ -69,62 +69,75 @@ class Sweep {
 
   Layer run() {
     const Grid<float>& grid = land_.height;
-    Layer out{Grid<Vec2>(grid.width(), grid.height()), land_.origin, land_.cell};
-    const int lines = rows_ ? grid.height() : grid.width();
-    const int length = rows_ ? grid.width() : grid.height();
-    // Ray r crosses the n-th line at r + first - drift n.
-    const float drift = drift_ * static_cast<float>(lines - 1);
-    const int first = static_cast<int>(std::floor(std::min(0.0F, drift))) - 1;
-    const int last = length + static_cast<int>(std::ceil(std::max(0.0F, drift))) + 1;
-    std::vector<Vec2> hidden(static_cast<std::size_t>(last - first) + 1, Vec2(nowhere));
-    std::vector<Vec2> edges(hidden.size(), Vec2(nowhere));
-    const auto ray_at = [&](float x) {
-      return static_cast<std::size_t>(x - static_cast<float>(first));
-    };
-    for (int n = -1; n < lines; ++n) {
-      const int line = forward_ > 0 ? lines - 1 - n : n;
-      const float shift = drift_ * static_cast<float>(n);
-      // Those on the line's samples, and those that come onto them with the next line.
-      const auto from = ray_at(std::max(shift - 2, static_cast<float>(first)));
-      const auto to = std::min(ray_at(shift + static_cast<float>(length + 2)), hidden.size() - 1);
-      for (std::size_t r = from; r <= to; ++r) {
-        const float k = static_cast<float>(r) + static_cast<float>(first) - shift;
-        const bool inside = n >= 0 && k > -1 && k < static_cast<float>(length);
-        edges[r] =
-            inside ? glm::max(hidden[r] - drop_, crossed(line, k, lines, length)) : beyond(line, k);
-        const float height = inside ? height_on(line, k, length) : nowhere;
-        hidden[r] = glm::max(edges[r], Vec2(height));
-      }
-      for (int k = 0; k < (n < 0 ? 0 : length); ++k) {
-        const float x = static_cast<float>(k) + shift;
-        const float below = std::floor(x);
-        const std::size_t r = ray_at(below);
-        (rows_ ? out.edges(k, line) : out.edges(line, k)) =
-            glm::mix(edges[r], edges[r + 1], x - below);
-      }
-    }
-    return out;
+    out_ = {Grid<Vec2>(grid.width(), grid.height()), land_.origin, land_.cell};
+    lines_ = rows_ ? grid.height() : grid.width();
+    length_ = rows_ ? grid.width() : grid.height();
+    const float drift = drift_ * static_cast<float>(lines_ - 1);
+    first_ = static_cast<int>(std::floor(std::min(0.0F, drift))) - 1;
+    const int last = length_ + static_cast<int>(std::ceil(std::max(0.0F, drift))) + 1;
+    const int rays = last - first_ + 1;
+    parallel_for(0, (rays + block - 1) / block, [&](int b) {
+      carry(first_ + b * block, std::min(first_ + (b + 1) * block, last));
+    });
+    return std::move(out_);
   }
 
  private:
+  static constexpr int block = 64;  // of rays, that go together
+
+  /// Along the rays [begin, end], for the samples between two of them. Ray r crosses the n-th line
+  /// at r - drift n.
+  void carry(int begin, int end) {
+    const auto count = static_cast<std::size_t>(end - begin) + 1;
+    std::vector<Vec2> hidden(count, Vec2(nowhere));
+    std::vector<Vec2> edges(count, Vec2(nowhere));
+    for (int n = -1; n < lines_; ++n) {
+      const int line = forward_ > 0 ? lines_ - 1 - n : n;
+      const float shift = drift_ * static_cast<float>(n);
+      // Those on the line's samples, and those that come onto them with the next line.
+      const int from =
+          std::max(begin, static_cast<int>(std::max(shift - 2, static_cast<float>(first_))));
+      const int to = std::min(end, static_cast<int>(shift) + length_ + 2);
+      for (int r = from; r <= to; ++r) {
+        const auto at = static_cast<std::size_t>(r - begin);
+        const float k = static_cast<float>(r) - shift;
+        const bool inside = n >= 0 && k > -1 && k < static_cast<float>(length_);
+        edges[at] = inside ? glm::max(hidden[at] - drop_, crossed(line, k)) : beyond(line, k);
+        hidden[at] = glm::max(edges[at], Vec2(inside ? height_on(line, k) : nowhere));
+      }
+      if (n < 0) continue;
+      const int first = std::max(0, static_cast<int>(static_cast<float>(begin) - shift));
+      for (int k = first; k < length_; ++k) {
+        const float x = static_cast<float>(k) + shift;
+        const float below = std::floor(x);
+        const int r = static_cast<int>(below);
+        if (r >= end) break;
+        if (r < begin) continue;
+        const auto at = static_cast<std::size_t>(r - begin);
+        (rows_ ? out_.edges(k, line) : out_.edges(line, k)) =
+            glm::mix(edges[at], edges[at + 1], x - below);
+      }
+    }
+  }
+
   /// What hides the sun where a ray crosses from one column of samples to the next on its way from
   /// the line before: a narrow crest along the rays is highest there.
-  Vec2 crossed(int line, float k, int lines, int length) const {
+  Vec2 crossed(int line, float k) const {
     const int before = line + forward_;
     const float column = drift_ > 0 ? std::ceil(k) : std::floor(k);
     const float part = (column - k) / drift_;  // of the way back
-    if (!(part > 0 && part < 1) || before < 0 || before >= lines) return Vec2(nowhere);
+    if (!(part > 0 && part < 1) || before < 0 || before >= lines_) return Vec2(nowhere);
     const auto at = static_cast<int>(column);
-    if (at < 0 || at >= length) return Vec2(nowhere);
+    if (at < 0 || at >= length_) return Vec2(nowhere);
     const Grid<float>& h = land_.height;
     const float height = rows_ ? std::lerp(h(at, line), h(at, before), part)
                                : std::lerp(h(line, at), h(before, at), part);
     return Vec2(height) - part * drop_;
   }
   /// Of the land, between two samples of a line.
-  float height_on(int line, float k, int length) const {
-    const float inside = std::clamp(k, 0.0F, static_cast<float>(length - 1));
-    const int at = std::min(static_cast<int>(inside), length - 2);
+  float height_on(int line, float k) const {
+    const float inside = std::clamp(k, 0.0F, static_cast<float>(length_ - 1));
+    const int at = std::min(static_cast<int>(inside), length_ - 2);
     const float t = inside - static_cast<float>(at);
     const Grid<float>& h = land_.height;
     return rows_ ? std::lerp(h(at, line), h(at + 1, line), t)
@@ -145,6 +158,10 @@ class Sweep {
   int forward_ = 1;  // towards the sun
   float drift_ = 0;  // along the line, per line towards the sun
   Vec2 drop_{0};     // per line
+  int lines_ = 0;
+  int length_ = 0;  // samples of a line
+  int first_ = 0;   // ray
+  Layer out_;
 };
 
 /// Nothing hides a sun right overhead.

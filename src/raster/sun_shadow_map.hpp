@@ -29,7 +29,7 @@ ShadeLand shade_land(const Ground& ground, int most_field, int most_around);
 
 class SunShadowMap {
  public:
-  explicit SunShadowMap(const Ground& ground, int most_field = 1025, int most_around = 513);
+  explicit SunShadowMap(const Ground& ground, int most_field = 1025, int most_around = 1025);
 
   /// Works the shadows out for a sun in this (unit) direction.
   void set_sun(Vec3 towards_sun, float radius = sun_radius);

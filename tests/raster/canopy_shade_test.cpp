@@ -23,6 +23,8 @@ World world_of(Model model) {
   field.cell = 20;
   field.origin = DVec2(-160);
   Material green;
+  green.color1 = Vec3(0.2F);
+  green.color2 = Vec3(0.3F);
   green.transmission = Vec3(0.1F);
   World world{Ground(field, {}, {}, 1), {SurfaceMaterial(green)}, {std::move(model)}, {}, Sky{}};
   return world;
@@ -67,7 +69,11 @@ TEST(UndergrowthShade, HasTheLeavesAboutTheEyeAndNoOthers) {
       Vec2(shade.place.z, shade.place.w) + Vec2(shade.place.x, shade.place.y) * Vec2(100, 50);
   const auto i = static_cast<std::size_t>(at.x * static_cast<float>(shade.width));
   const auto j = static_cast<std::size_t>(at.y * static_cast<float>(shade.height));
-  EXPECT_NEAR(shade.texels[4 * (j * static_cast<std::size_t>(shade.width) + i)], 1 / pi, 0.03F);
+  const std::size_t k = 4 * (j * static_cast<std::size_t>(shade.width) + i);
+  EXPECT_NEAR(shade.texels[k], 1 / pi, 0.03F);
+  // The leaves reflect 1/4 of the light and let 1/10 through.
+  for (std::size_t c = 1; c < 4; ++c)
+    EXPECT_NEAR(shade.texels[k + c], 0.35F * shade.texels[k], 1e-5F);
   EXPECT_TRUE(undergrowth_shade(world, {}, {0, 0}, 20).texels.empty());
 }
 

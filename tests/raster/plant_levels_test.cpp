@@ -112,6 +112,25 @@ TEST(PlantOpenness, IsThatOfAnEmptySpaceWhereNothingGrows) {
   EXPECT_NEAR(glm::length(Vec3(light)), 0, 0.15F);
 }
 
+TEST(PlantOpenness, ExtinctionIsThatAmongTheLeaves) {
+  // A box of 2 m full of leaves in all cells, and one leaf far off: 1000 of 0.005 m² in 8 m³.
+  TriangleMesh mesh;
+  const auto add = [&mesh](Vec3 at) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const Vec3 off : {Vec3(0), Vec3(0.1F, 0, 0), Vec3(0, 0.1F, 0)})
+      mesh.positions.push_back(at + off);
+    mesh.triangles.emplace_back(first, first + 1, first + 2);
+  };
+  for (int k = 0; k < 1000; ++k)
+    add(0.2F * Vec3(k % 10, k / 10 % 10, k / 100) + Vec3(0.05F, 0.05F, 0.1F));
+  add({7.8F, 1, 1});
+  mesh.parts = {{"leaf", 0, 1001}};
+  EXPECT_NEAR(PlantOpenness(mesh, {true}).mean_extinction(), 0.5F * 0.9F * 5 / 8, 0.06F);
+  TriangleMesh none;
+  none.positions = {Vec3(0), Vec3(1, 0, 0)};
+  EXPECT_EQ(PlantOpenness(none, {true}).mean_extinction(), 0);
+}
+
 TEST(PlantOpenness, IsLessWithinACrownAndMostTowardsItsOutside) {
   const Grown g = grown("oak");
   std::vector<bool> sheet;

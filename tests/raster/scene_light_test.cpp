@@ -42,6 +42,16 @@ TEST(SkyHarmonics, AreNearTheIntegralInEveryDirection) {
   }
 }
 
+TEST(RadianceBelow, IsTheMeanByCosine) {
+  for (const SkyModel model : {SkyModel::preetham, SkyModel::atmosphere}) {
+    SkySettings settings;
+    settings.model = model;
+    const Sky sky(settings);
+    const Vec3 exact = irradiance_by_quadrature(sky, {0, 0, -1});
+    EXPECT_LT(glm::length(pi * radiance_below(sky) - exact), 0.01F * glm::length(exact));
+  }
+}
+
 class LightOnTheGpu : public testing::Test {
  protected:
   OffscreenContext context_;
@@ -79,6 +89,69 @@ void main() {
       // Texture filters have weights of 8 bits.
       ASSERT_LT(glm::length(found - expected), 5e-3F * glm::length(expected)) << i << ' ' << j;
     }
+}
+
+TEST_F(LightOnTheGpu, LeavesThatLookDownAreLitByTheLandThatIsThere) {
+  const Sky sky;
+  SceneLight light(sky, {.size = 0});
+  const Vec3 reflectance(0.1F, 0.3F, 0.05F);
+  light.set_land_colors({Grid<Vec3>(2, 2, reflectance), Vec4(0)});
+  // Up, down.
+  const std::vector<Vec4> got = evaluate_shader(R"(
+#include "raster/plant_light.glsl"
+vec4 evaluate(vec4 a, vec4 b) {
+  return vec4(crown_ambient(vec3(0.0), a.xyz, vec4(0.0, 0.0, 0.0, 1.0), vec3(0.0)), 1.0);
+}
+)",
+                                                std::array{Vec4(0, 0, 1, 0), Vec4(0, 0, -1, 0)}, {},
+                                                {}, [&](const GpuProgram& program) {
+                                                  program.use();
+                                                  light.apply(program);
+                                                });
+  const Vec3 from_above = sky.sky_irradiance();
+  const Vec3 on_land = from_above + sky.sun_direction().z * sky.sun_irradiance();
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(got[0][c], from_above[c], 0.05F * from_above[c]) << c;
+    EXPECT_NEAR(got[1][c], reflectance[c] * on_land[c],
+                0.05F * reflectance[c] * on_land[c] + 0.02F * from_above[c])
+        << c;
+  }
+}
+
+TEST_F(LightOnTheGpu, SmallPlantsLetThroughMoreThePalerTheirLeaves) {
+  const Sky sky;
+  SceneLight light(sky, {.size = 0});
+  // Two layers of leaves that scatter nothing, a part, and all.
+  constexpr float leaves = 2;
+  CanopyShade undergrowth{
+      1, 1, {leaves, 0, 0.36F * leaves, leaves}, Vec4(0.01F, 0.01F, 0.5F, 0.5F)};
+  light.set_undergrowth(undergrowth);
+  const std::vector<Vec4> got = evaluate_shader(R"(
+#include "raster/light.glsl"
+vec4 evaluate(vec4 a, vec4 b) {
+  Undergrowth plants = undergrowth_at(vec3(0.0));
+  return vec4(a.x > 0.0 ? sky_through(plants) : sun_scattered_by(plants), 1.0);
+}
+)",
+                                                std::array{Vec4(1, 0, 0, 0), Vec4(-1, 0, 0, 0)}, {},
+                                                {}, [&](const GpuProgram& program) {
+                                                  program.use();
+                                                  light.apply(program);
+                                                });
+  const float black = 0.5F * leaves / sky.sun_direction().z;
+  const Vec3 paler(1, 0.8F, 0);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(got[0][c], std::exp(-0.8F * leaves * paler[c]), 1e-3F) << c;
+    EXPECT_NEAR(got[1][c], std::exp(-black * paler[c]) - std::exp(-black), 1e-3F) << c;
+  }
+}
+
+TEST_F(LightOnTheGpu, TheLandIsInTheFinerShadowMapsAlone) {
+  ShadowMaps maps({.size = 16});
+  std::vector<bool> without_land;
+  maps.update(DrawView(), {0, 0, 1},
+              [&](const DrawView& view) { without_land.push_back(view.without_land); });
+  EXPECT_EQ(without_land, (std::vector<bool>{false, false, true, true}));
 }
 
 }  // namespace

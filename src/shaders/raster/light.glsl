@@ -41,8 +41,14 @@ vec3 diffuse_radiance(vec3 place, vec3 normal, vec3 reflectance) {
 
 // The same of ground, which small plants stand on.
 vec3 ground_radiance(vec3 place, vec3 normal, vec3 reflectance) {
+  const float above = 0.5;  // m: where most of them end
   float facing = dot(normal, sun_direction);
-  vec3 light = ambient_irradiance(place, normal) * under_undergrowth(place);
+  Undergrowth plants = undergrowth_at(place);
+  vec3 light = ambient_irradiance(place, normal) * sky_through(plants);
+  if (plants.leaves > 0.02 && sun_direction.z > 0.0) {
+    float sun = sun_share(place + vec3(0.0, 0.0, above), vec3(0.0, 0.0, 1.0));
+    light += sun_irradiance * (sun_direction.z * sun) * sun_scattered_by(plants);
+  }
   if (facing > 0.0) light += sun_irradiance * (facing * sun_share(place, normal));
   return reflectance * light / light_pi;
 }

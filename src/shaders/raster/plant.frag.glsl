@@ -1,6 +1,8 @@
 #include "raster/plant_light.glsl"
 #include "raster/plant_material.glsl"
 
+uniform float crown_extinction;  // 1/m, among the leaves of the model
+
 in vec3 place;
 in vec3 model_place;
 in vec3 normal;
@@ -22,6 +24,6 @@ void main() {
   float far_share = smoothstep(crown_light_range.x, crown_light_range.y, length(to_eye));
   color = vec4(
       crown_radiance(place, n, 0.0, reflectance, transmittance, plant_roughness(material),
-                     crown_light, far_share),
+                     crown_light, crown_extinction * footprint_scale, far_share),
       1.0);
 }

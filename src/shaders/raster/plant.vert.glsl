@@ -41,7 +41,7 @@ void main() {
   crown_light = vec4(turned_by(plant_turn, vertex_light.xyz * (127.0 / 63.0)), vertex_light.w);
   // Among others of its size the sky is seen through those above (Monsi, Saeki, 1953).
   float above = plant_growth.y * clamp(1.0 - p.z / plant_height, 0.0, 1.0);
-  crown_light *= exp(-0.9 * above);
+  crown_light *= exp(-0.6 * above);
   material = first_material + int(vertex_identity >> 24u);
   footprint_scale = 1.0 / plant_at.w;
   // Fewer leaves differ less, so that what is seen of many together differs as before (Cook et al.,

@@ -84,7 +84,7 @@ void main() {
   vec3 transmittance = reflectance * card_transmission * facing.a;
   color = vec4(
       crown_radiance(place, mean, spread, reflectance, transmittance, card_roughness * facing.a,
-                     crown_light, 1.0),
+                     crown_light, 0.0, 1.0),
       1.0);
 #endif
 }

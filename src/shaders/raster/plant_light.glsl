@@ -2,6 +2,9 @@
 #include "raster/light.glsl"
 
 uniform vec2 crown_light_range;  // m; from here on the crown's own shade is not that of shadow maps
+uniform vec3 radiance_below;     // cd/m², of the sky's lower half
+uniform sampler2D land_colors;   // reflectance
+uniform vec4 land_place;         // texture = zw + xy · place
 uniform float crown_reach;       // m, from the plant's middle to its outside
 
 // Share of light from a direction that the crown lets through.
@@ -14,9 +17,10 @@ float let_through_about(vec4 crown_light, vec3 n) {
 }
 
 // Near by, shadow maps have the leaves; farther off they are too coarse, and hold what stands
-// around.
-float crown_sun_share(vec3 place, vec3 normal, vec4 crown_light, float far_share) {
-  float near = far_share < 1.0 ? sun_share(place, normal) : 0.0;
+// around. `extinction`: among the plant's leaves, 1/m.
+float crown_sun_share(vec3 place, vec3 normal, vec4 crown_light, float extinction,
+                      float far_share) {
+  float near = far_share < 1.0 ? sun_share(place, normal, extinction) : 0.0;
   if (far_share <= 0.0) return near;
   float far = let_through(crown_light, sun_direction);
   far *= sun_share(place + crown_reach * sun_direction, sun_direction);
@@ -28,12 +32,28 @@ float past_others(vec3 place) {
   return exp(-0.5 * canopy_above(place).y) * terrain_sky_share(place);
 }
 
+// Radiance of the land about a place, in the light that comes down to it past crowns, cd/m².
+vec3 land_radiance(vec3 place) {
+  vec3 reflectance = texture(land_colors, land_place.zw + land_place.xy * place.xy).rgb;
+  float leaves = canopy_around(place);
+  float sky = exp(-0.6 * leaves) * terrain_sky_share(place);
+  float rise = max(sun_direction.z, 0.0);
+  float sun = exp(-0.5 * leaves / max(rise, 0.1)) * terrain_sun_share(place);
+  vec3 light = sky * open_irradiance(vec3(0.0, 0.0, 1.0)) + (sun * rise) * sun_irradiance;
+  return reflectance * light / light_pi;
+}
+
 vec3 crown_ambient(vec3 place, vec3 normal, vec4 crown_light, vec3 albedo) {
   // Its own crown hides what it does; others hide what they do from their middle on.
-  float seen = let_through_about(crown_light, normal) * past_others(place);
+  float own = let_through_about(crown_light, normal);
+  float seen = own * past_others(place);
+  // What looks down sees the land that is there, not that of the open.
+  float below = 0.5 * light_pi * (1.0 - normal.z);
+  vec3 sky = max(open_irradiance(normal) - below * radiance_below, vec3(0.0));
+  vec3 light = sky * seen + land_radiance(place) * (below * own);
   // What leaves around hide, they also scatter on: J. Jimenez et al., "Practical real-time
   // strategies for accurate indirect occlusion", 2016.
-  return open_irradiance(normal) * seen / (1.0 - albedo * (1.0 - seen));
+  return light / (1.0 - albedo * (1.0 - seen));
 }
 
 // Mean of the cosine to the sun over leaves that look everywhere, as seen from the eye: of those lit
@@ -80,7 +100,8 @@ vec3 crown_coat(vec3 normal, float spread, vec3 to_eye, float roughness, vec3 sk
 // `mean_normal` is the mean of the normals of what is seen, on the side of the eye: of unit length
 // where all has the same. `spread`: 0 there, 1 where leaves look everywhere.
 vec3 crown_radiance(vec3 place, vec3 mean_normal, float spread, vec3 reflectance,
-                    vec3 transmittance, float roughness, vec4 crown_light, float far_share) {
+                    vec3 transmittance, float roughness, vec4 crown_light, float extinction,
+                    float far_share) {
   vec3 normal = mean_normal / max(length(mean_normal), 1e-3);
   float facing = dot(normal, sun_direction);
   vec2 cosines = vec2(max(facing, 0.0), max(-facing, 0.0));
@@ -93,7 +114,7 @@ vec3 crown_radiance(vec3 place, vec3 mean_normal, float spread, vec3 reflectance
     light += transmittance * crown_ambient(place, -mean_normal, crown_light, albedo);
   vec3 sun = vec3(0.0);
   if (scattered.g > 0.0)
-    sun = sun_irradiance * crown_sun_share(place, normal, crown_light, far_share);
+    sun = sun_irradiance * crown_sun_share(place, normal, crown_light, extinction, far_share);
   vec3 to_eye = normalize(eye - place);
   if (roughness > 0.0) {
     // What the coat lets in, and out again.
