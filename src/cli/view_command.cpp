@@ -188,7 +188,7 @@ class OffscreenRun {
       interface.emplace();
       shown.emplace(viewer, *interface);
     }
-    viewer.settle();
+    viewer.settle(progress);
     try {
       const ProgressStage stage(progress, "drawing", count, "frames");
       while (frames_ < count) {

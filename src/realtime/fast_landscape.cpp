@@ -106,15 +106,15 @@ FastLandscapeDrawing::State::State(const Landscape& landscape, const FastLandsca
     v = GpuTarget(view_texels, 1, std::array{PixelFormat::rgba32f}, false, TextureFilter::nearest);
   sky = GpuTarget(
       24, 128, std::array{PixelFormat::rgba16f, PixelFormat::rgba16f, PixelFormat::rgba16f}, false);
-  transmittances = GpuTarget(256, 64, std::array{PixelFormat::rgba32f}, false);
-  multiples = GpuTarget(128, 32, std::array{PixelFormat::rgba32f}, false);
-  make_tables();
 }
 
 void FastLandscapeDrawing::State::make_tables() {
+  if (multiples) return;
+  transmittances = GpuTarget(256, 64, std::array{PixelFormat::rgba32f}, false);
   transmittances.bind();
   passes[FastPass::transmittances].use();
   draw_full_screen();
+  multiples = GpuTarget(128, 32, std::array{PixelFormat::rgba32f}, false);
   multiples.bind();
   passes[FastPass::multiples].use();
   draw_full_screen();
@@ -317,6 +317,7 @@ void FastLandscapeDrawing::State::draw(int width, int height, const LandscapeEye
   if (settings.frame_time > 0) timer.begin();
   const int w = std::max(1, static_cast<int>(std::lround(scale * static_cast<float>(width))));
   const int h = std::max(1, static_cast<int>(std::lround(scale * static_cast<float>(height))));
+  make_tables();
   make_rings(width);
   if (last && is_cut(*last, eye)) frames = 0;
   const Vec3 sun_before = std::exchange(sun, sun_at(knobs, eye.time));
@@ -356,6 +357,10 @@ FastLandscapeDrawing::FastLandscapeDrawing(const Landscape& landscape,
 FastLandscapeDrawing::~FastLandscapeDrawing() = default;
 FastLandscapeDrawing::FastLandscapeDrawing(FastLandscapeDrawing&&) noexcept = default;
 FastLandscapeDrawing& FastLandscapeDrawing::operator=(FastLandscapeDrawing&&) noexcept = default;
+
+int FastLandscapeDrawing::compile_next(bool camera) {
+  return state_->passes.compile_next(camera);
+}
 
 void FastLandscapeDrawing::draw(int width, int height, float time) {
   state_->draw(width, height, eye_of_flight(state_->knobs, time));

@@ -35,12 +35,17 @@ struct FastLandscapeSettings {
 
 class FastLandscapeDrawing {
  public:
-  /// Needs a current context, at its end too. Throws Error(internal) with the driver's log.
+  /// Needs a current context, at its end too.
   explicit FastLandscapeDrawing(const Landscape& landscape,
                                 const FastLandscapeSettings& settings = {});
   ~FastLandscapeDrawing();
   FastLandscapeDrawing(FastLandscapeDrawing&&) noexcept;
   FastLandscapeDrawing& operator=(FastLandscapeDrawing&&) noexcept;
+
+  /// Compiles one of its programs ahead, for pictures by a camera or of the flight: how many are
+  /// left then. The first picture compiles what is left at once. Throws Error(internal) with the
+  /// driver's log, as all that draws.
+  int compile_next(bool camera);
 
   /// Draws over the whole of the bound target, width x height pixels, `time` seconds into the
   /// flight.

@@ -2,6 +2,8 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+
 #include "gpu/context.hpp"
 
 namespace wold {
@@ -93,6 +95,17 @@ const GpuProgram& FastPasses::operator[](FastPass pass) {
                          assemble_shader_text("fast landscape", text, dialect));
   }
   return program;
+}
+
+int FastPasses::compile_next(bool camera) {
+  const FastPass other = camera ? FastPass::flight_view : FastPass::free_view;
+  int wanting = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto pass = static_cast<FastPass>(k);
+    if (programs_[k] || pass == other) continue;
+    if (wanting++ == 0) (*this)[pass];
+  }
+  return std::max(wanting - 1, 0);
 }
 
 void draw_strips(const GpuProgram& program, const RingTarget& target, const RingSquares& squares,

@@ -35,6 +35,9 @@ class FastPasses {
   explicit FastPasses(const Landscape& landscape);
   /// Throws Error(internal) with the driver's log.
   const GpuProgram& operator[](FastPass pass);
+  /// Compiles one more of those that a camera (or the flight) needs; how many are left then. Throws
+  /// the same.
+  int compile_next(bool camera);
 
  private:
   static constexpr std::size_t count = static_cast<std::size_t>(FastPass::show) + 1;

@@ -30,14 +30,14 @@ SkySettings sky_of(const SkySettings& scene, const PathView& view) {
   return sky;
 }
 
-void look(Viewer& viewer, const SkySettings& scene, const PathView& view) {
+void look(Viewer& viewer, const SkySettings& scene, const PathView& view, Progress& progress) {
   const bool moves = view.sun || view.hour;
   if (moves) {
     viewer.edit().sky = sky_of(scene, view);
     viewer.edited(Viewer::Change::light);
   }
   viewer.place(view.camera);
-  viewer.settle();
+  viewer.settle(progress);
 }
 
 void draw(Viewer& viewer, int frames, Progress& progress) {
@@ -109,7 +109,7 @@ std::vector<float> stops_at_keys(Viewer& viewer, const SkySettings& sky, const C
       stops.push_back(tone.exposure);
       continue;
     }
-    look(viewer, sky, camera_at(path, key.time));
+    look(viewer, sky, camera_at(path, key.time), progress);
     draw(viewer, metering_frames, progress);
     stops.push_back(tone.exposure + viewer.picture().metered_exposure());
   }
@@ -149,7 +149,7 @@ int make_film(Viewer& viewer, const FilmSettings& film, Progress& progress) {
     const auto extra = static_cast<float>(view.exposure.value_or(0));
     viewer.set_seconds(time - film.path.begin());
     viewer.set_extra_stops(extra);
-    look(viewer, sky, view);
+    look(viewer, sky, view, progress);
     make_frame(viewer, film, film.frames.name(frame), exposure_at(film.path, stops, time) + extra,
                progress);
     progress.advance();

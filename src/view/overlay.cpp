@@ -257,7 +257,8 @@ void draw_status(const StatusLine& status) {
     };
     item("fps", fmt::format("{:.0f}", status.frames_per_second));
     item("ms", fmt::format("{:.1f}", status.milliseconds));
-    item("triangles", count_text(status.triangles));
+    if (status.triangles) item("triangles", count_text(*status.triangles));
+    if (status.shader_scale) item("shader at", fmt::format("{:.0f} %", 100 * *status.shader_scale));
     const DVec3& p = status.position;
     item("at", fmt::format("{:.0f}, {:.0f}, {:.0f} m", p.x, p.y, p.z));
     if (status.height) item("above ground", fmt::format("{:.3g} m", *status.height));

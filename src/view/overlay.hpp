@@ -51,10 +51,11 @@ std::optional<std::size_t> draw_tasks(std::span<const Task> tasks, float left_ed
 struct StatusLine {
   double frames_per_second = 0;
   double milliseconds = 0;  ///< of drawing a frame
-  std::int64_t triangles = 0;
-  DVec3 position{0};             ///< m
-  std::optional<double> height;  ///< m, above ground
-  double speed = 0;              ///< m/s, that keys would fly at
+  std::optional<std::int64_t> triangles;
+  std::optional<double> shader_scale;  ///< of the window's size, at which the shader is drawn
+  DVec3 position{0};                   ///< m
+  std::optional<double> height;        ///< m, above ground
+  double speed = 0;                    ///< m/s, that keys would fly at
   bool walking = false;
   double sun_elevation = 0;  ///< degrees
   double sun_azimuth = 0;    ///< degrees from north by east

@@ -99,6 +99,7 @@ ChangeCost cost_of(std::string_view section) {
   if (head == "sky") return ChangeCost::light;
   if (head == "ground") return ChangeCost::ground;
   if (head == "render") return ChangeCost::render;
+  if (head == "shader") return ChangeCost::shader;
   for (const std::string_view planted : {"species", "scatter", "grid", "cover", "material"})
     if (head == planted) return ChangeCost::plants;
   return ChangeCost::terrain;

@@ -47,6 +47,7 @@ enum class ChangeCost {
   ground,   ///< colours of the ground
   plants,   ///< plants and covers
   terrain,  ///< the ground itself, and all that stands on it
+  shader,   ///< the landscape shader
   render    ///< nothing that is drawn: settings of the path tracer
 };
 ChangeCost cost_of(std::string_view section);

@@ -147,6 +147,7 @@ void Viewer::reload() {
 }
 
 void Viewer::edited(Change change) {
+  if (change == Change::shader) return shader_.knobs_changed();
   is_edited_ = true;
   if (change == Change::picture) return;
   if (change == Change::light) {
@@ -304,23 +305,15 @@ void Viewer::want_shader(bool wanted) {
   restart_picture();
 }
 
-void Viewer::make_shader(bool wait) {
-  const Vec3 sun = drawing_->light().sky().sun_direction();
-  if (wait)
-    shader_.make(world_, edited_.sky, sun);
-  else
-    shader_.want(world_, edited_.sky, sun);
-}
-
 float Viewer::shader_stops() const {
   // A fixed exposure is the scene's for its own light; the shader sets one that suits.
   const ToneMapping& tone = edited_.picture;
   return extra_stops_ + tone.exposure - (tone.auto_exposure ? 0 : usual_exposure_);
 }
 
-void Viewer::settle() {
+void Viewer::settle(Progress& progress) {
   if (shader_wanted_)
-    make_shader(true);
+    shader_.make(world_, edited_.sky, drawing_->light().sky().sun_direction(), progress);
   else
     drawing_->settle(camera());
 }
@@ -332,7 +325,7 @@ void Viewer::restart_picture() {
 
 void Viewer::draw() {
   if (shader_wanted_) {
-    make_shader(false);
+    shader_.want(world_, edited_.sky, drawing_->light().sky().sun_direction());
     shader_.draw(camera(), {width_, height_}, static_cast<float>(seconds_), shader_stops());
     if (shader_shown()) return;
   }

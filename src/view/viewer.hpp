@@ -78,7 +78,7 @@ class Viewer {
   /// The scene as edited; `edited` must be called after each change.
   Scene& edit() { return edited_; }
   /// What has been changed in `edit()`.
-  enum class Change { picture, light, everything };
+  enum class Change { picture, light, shader, everything };
   void edited(Change change);
   /// Whether what is shown is not what the scene's file says.
   bool is_edited() const { return is_edited_; }
@@ -96,6 +96,8 @@ class Viewer {
   /// Makes it, or not.
   void want_shader(bool wanted);
   const ShaderView& shader() const { return shader_; }
+  /// Its knobs; `edited(Change::shader)` must be called after each change.
+  LandscapeSettings& edit_knobs() { return shader_.knobs(); }
   /// Where its clouds are: s of wind.
   void set_seconds(double seconds) { seconds_ = seconds; }
   /// Stops that a path's view is brighter than usual, of the shader's picture.
@@ -103,8 +105,9 @@ class Viewer {
   const SceneDrawing& drawing() const { return *drawing_; }
   const Pilot& pilot() const { return pilot_; }
   void place(const Camera& camera);
-  /// Waits until all that the camera sees is there.
-  void settle();
+  /// Waits until all that the camera sees is there. Throws Error(cancelled), and what makes the
+  /// shader fail.
+  void settle(Progress& progress);
   Camera camera() const { return camera_of(pilot_); }
   /// m, above the ground.
   float height_above_ground() const;
@@ -151,7 +154,6 @@ class Viewer {
   void take_over();
   void note_file_times();
   void set_hour(double hours);
-  void make_shader(bool wait);
   float shader_stops() const;
   void adapt_exposure(double seconds);
 

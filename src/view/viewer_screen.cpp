@@ -15,11 +15,22 @@ Viewer::Change change_of(ChangeCost cost) {
     case ChangeCost::picture:
     case ChangeCost::render: return Viewer::Change::picture;
     case ChangeCost::light: return Viewer::Change::light;
+    case ChangeCost::shader: return Viewer::Change::shader;
     case ChangeCost::ground:
     case ChangeCost::plants:
     case ChangeCost::terrain: return Viewer::Change::everything;
   }
   return Viewer::Change::everything;
+}
+
+PanelSection shader_section(Viewer& viewer) {
+  const auto usual = std::make_shared<LandscapeSettings>(viewer.shader().scene_knobs());
+  return {"shader",
+          "Landscape shader",
+          std::make_shared<const ParameterSet>(ShaderView::free_knobs()),
+          &viewer.edit_knobs(),
+          usual,
+          false};
 }
 
 Task task_of(const char* title, const ProgressReport& report) {
@@ -55,8 +66,9 @@ bool ViewerScreen::close_open() {
 void ViewerScreen::apply(const std::vector<ParameterChange>& changes) {
   for (const ParameterChange& change : changes) {
     const Viewer::Change what = change_of(cost_of(change.section));
-    // Land is made anew when a slider is let go, light while it moves.
-    if (what != Viewer::Change::everything || change.finished) viewer_.edited(what);
+    // Land and shader are made anew when a slider is let go, light while it moves.
+    const bool slow = what == Viewer::Change::everything || what == Viewer::Change::shader;
+    if (!slow || change.finished) viewer_.edited(what);
   }
 }
 
@@ -65,6 +77,13 @@ void ViewerScreen::draw_panel() {
     sections_ = panel_sections(viewer_.edit());
     panel_.forget();
     sections_of_ = viewer_.readings();
+    shader_of_ = 0;
+  }
+  // The knobs of the shader come with its first picture, and stay.
+  if (shader_of_ != viewer_.shader().generation()) {
+    std::erase_if(sections_, [](const PanelSection& s) { return s.name == "shader"; });
+    sections_.push_back(shader_section(viewer_));
+    shader_of_ = viewer_.shader().generation();
   }
   if (panel_shown_) apply(panel_.draw(sections_, viewer_.title()));
 }
@@ -111,7 +130,11 @@ StatusLine ViewerScreen::status() const {
   StatusLine line;
   line.milliseconds = 1000 * seconds_per_frame_;
   line.frames_per_second = seconds_per_frame_ > 0 ? 1 / seconds_per_frame_ : 0;
-  line.triangles = static_cast<std::int64_t>(viewer_.drawing().drawn_triangles());
+  const bool shader = viewer_.shader_shown();
+  if (shader)
+    line.shader_scale = static_cast<double>(viewer_.shader().scale());
+  else
+    line.triangles = static_cast<std::int64_t>(viewer_.drawing().drawn_triangles());
   line.position = pilot.position;
   line.height = viewer_.height_above_ground();
   line.speed = pilot.walking ? pilot.walking_speed : pilot.speed;
@@ -121,7 +144,7 @@ StatusLine ViewerScreen::status() const {
   if (line.sun_azimuth < 0) line.sun_azimuth += 360;
   if (viewer_.edited_scene().sky.sun.empty())
     line.time = fmt::format("{:02}:{:02}", time.hour, time.minute);
-  line.exposure = viewer_.exposure();
+  line.exposure = static_cast<double>(shader ? viewer_.shader().stops() : viewer_.exposure());
   return line;
 }
 

@@ -43,6 +43,7 @@ class ViewerScreen {
   ParameterPanel panel_;
   std::vector<PanelSection> sections_;
   int sections_of_ = 0;  // the reading that sections_ point into
+  int shader_of_ = 0;    // the landscape whose knobs are among them; 0: none
   TracedPanel traced_;
   Messages messages_;
   bool panel_shown_ = true;

@@ -150,6 +150,19 @@ TEST_F(FastLandscape, ASunThatIsSetLightsAsOneOfTheScene) {
   EXPECT_FALSE(turned.settling());
 }
 
+TEST_F(FastLandscape, CompiledAheadItIsTheSame) {
+  const Landscape landscape = small_landscape();
+  FastLandscapeDrawing ahead(landscape, {.ring_size = 128});
+  FastLandscapeDrawing at_once(landscape, {.ring_size = 128});
+  int left = ahead.compile_next(false);
+  EXPECT_GT(left, 5);
+  for (; left > 0; --left) ASSERT_EQ(ahead.compile_next(false), left - 1);
+  EXPECT_EQ(ahead.compile_next(false), 0);
+  EXPECT_EQ(ahead.compile_next(true), 0) << "a camera needs one program more";
+  EXPECT_EQ(picture([&] { ahead.draw(width, height, 3); }),
+            picture([&] { at_once.draw(width, height, 3); }));
+}
+
 TEST_F(FastLandscape, SeesTheCamerasField) {
   const Landscape landscape = small_landscape();
   Camera camera;

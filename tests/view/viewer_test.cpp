@@ -292,6 +292,41 @@ TEST_F(ViewerTest, TheShaderFollowsOtherLandAndCanBeCancelled) {
   EXPECT_TRUE(viewer_->take_notices().empty());
 }
 
+TEST_F(ViewerTest, KnobsOfTheShaderAreEditedAndStay) {
+  viewer_->want_shader(true);
+  ASSERT_TRUE(wait_until([&] { return viewer_->shader_shown(); }));
+  viewer_->restart_picture();
+  viewer_->frame({});
+  const double before = mean_of(viewer_->displayed());
+  const float usual = viewer_->shader().scene_knobs().terrain_height;
+  viewer_->edit_knobs().terrain_height = 0;
+  viewer_->edit_knobs().cloud_steps = 0;
+  viewer_->edited(Viewer::Change::shader);
+  EXPECT_TRUE(viewer_->shader().busy());
+  EXPECT_TRUE(viewer_->shader_shown()) << "the old one, until the new one is compiled";
+  EXPECT_EQ(viewer_->shader().report().stage, "compiling");
+  ASSERT_TRUE(wait_until([&] { return !viewer_->shader().busy(); }));
+  viewer_->restart_picture();
+  viewer_->frame({});
+  EXPECT_GT(std::abs(mean_of(viewer_->displayed()) - before), 0.003);
+  EXPECT_EQ(viewer_->shader().scene_knobs().terrain_height, usual);
+
+  // Other land: what was edited stays, the rest is the land's own.
+  const int generation = viewer_->shader().generation();
+  viewer_->edit().sky.clouds.height += 500;
+  viewer_->edited(Viewer::Change::light);
+  ASSERT_TRUE(wait_until([&] { return viewer_->shader().generation() > generation; }));
+  EXPECT_EQ(viewer_->edit_knobs().terrain_height, 0);
+  EXPECT_EQ(viewer_->edit_knobs().cloud_steps, 0);
+}
+
+TEST_F(ViewerTest, WhatTheViewSetsIsNoKnobOfThePanel) {
+  const ParameterSet knobs = ShaderView::free_knobs();
+  EXPECT_NE(knobs.find("CLOUD_COVERAGE"), nullptr);
+  for (const char* name : {"SUN_ELEVATION", "EXPOSURE", "CAM_HEIGHT", "FIELD_OF_VIEW"})
+    EXPECT_EQ(knobs.find(name), nullptr) << name;
+}
+
 TEST_F(ViewerTest, AKnobThatTheShaderDoesNotHaveIsAnError) {
   settings_.defines = {"OCTAVE=3"};
   try {
