@@ -350,16 +350,22 @@ PlantField::PlantField(std::span<const ModelInstance> instances,
     Cell cell{start[c], start[c + 1] - start[c], Vec3(1e30F), Vec3(-1e30F)};
     if (cell.count == 0) continue;
     float crowd = 0;
+    float crowd_height = 0;
     for (std::uint32_t k = cell.first; k < cell.first + cell.count; ++k) {
       const Plant& p = plants_[k];
       const PlantSizes& size = sizes[p.model];
       const float reach = p.drawn.scale * (size.radius + glm::length(size.middle));
-      if (!size.card) crowd += size.area * p.drawn.scale * p.drawn.scale / (step * step);
+      const float area = size.card ? 0.0F : size.area * p.drawn.scale * p.drawn.scale;
+      crowd += area / (step * step);
+      crowd_height += area / (step * step) * size.height * p.drawn.scale;
       cell.low = glm::min(cell.low, p.drawn.position - reach);
       cell.high = glm::max(cell.high, p.drawn.position + reach);
     }
-    for (std::uint32_t k = cell.first; k < cell.first + cell.count; ++k)
-      if (!sizes[plants_[k].model].card) plants_[k].drawn.crowd = crowd;
+    for (std::uint32_t k = cell.first; k < cell.first + cell.count; ++k) {
+      if (sizes[plants_[k].model].card || crowd <= 0) continue;
+      plants_[k].drawn.crowd = crowd;
+      plants_[k].drawn.crowd_height = crowd_height / crowd;
+    }
     cells_.push_back(cell);
   }
 }

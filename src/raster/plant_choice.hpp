@@ -42,8 +42,9 @@ struct DrawnPlant {
   std::array<std::uint32_t, 2> bits{};  ///< of the individual, low and high
   float growth = 1;                     ///< in area, for others that were left out
   float crowd = 0;                      ///< leaf area of small plants per m² of ground here
+  float crowd_height = 1;               ///< m, mean over that area
 };
-static_assert(sizeof(DrawnPlant) == 64);
+static_assert(sizeof(DrawnPlant) == 68);
 
 /// Plants that are drawn by one call.
 struct PlantBatch {

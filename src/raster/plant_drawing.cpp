@@ -82,7 +82,7 @@ void plant_attributes(const GpuVertices& vertices, const GpuBuffer& plants, std:
   add(7, 4, false, offsetof(DrawnPlant, turn));
   add(8, 4, false, offsetof(DrawnPlant, share));
   add(9, 2, true, offsetof(DrawnPlant, bits));
-  add(10, 2, false, offsetof(DrawnPlant, growth));
+  add(10, 3, false, offsetof(DrawnPlant, growth));
 }
 
 Mat4 from_eye(const DrawView& view) {
@@ -144,7 +144,6 @@ void PlantDrawing::draw_batch(const GpuProgram& program, const PlantBatch& batch
   if (level.index_count == 0) return;
   program.set("first_material", model.first_material);
   program.set("crown_reach", sizes_[batch.model].radius);
-  program.set("plant_height", sizes_[batch.model].height);
   program.set("crown_extinction", levels.extinction);
   plant_attributes(model.vertices, drawn_, batch.first);
   model.vertices.bind();

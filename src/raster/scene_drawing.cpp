@@ -13,6 +13,7 @@ constexpr double near_step = 5;  // m that the eye moves before the plants about
 constexpr double undergrowth_reach = 50;  // m
 constexpr float near_spacing_pixels = 2;
 constexpr float default_pixel_angle = 1e-3F;
+constexpr float finest_under_trees = 0.1F;  // m
 
 }  // namespace
 
@@ -34,6 +35,7 @@ SceneDetail scene_detail(DrawingQuality quality) {
       detail.terrain.pixels_per_vertex = 3;
       detail.picture.cloud_light_steps = 12;
       detail.picture.cloud_scale = 1;
+      detail.shadows.size = 4096;
       break;
   }
   return detail;
@@ -46,8 +48,15 @@ SceneDrawing::SceneDrawing(const PlantedWorld& world, const SceneDetail& detail,
       terrain_(world.world().ground, detail.terrain),
       plants_(world.world(), progress, detail.plants),
       picture_(light_, detail.picture) {
+  stand_plants();
   light_.set_canopy(canopy_shade(world.world()));
   shade_land(world.world().ground);
+}
+
+void SceneDrawing::stand_plants() {
+  std::vector<ModelInstance> plants = world_->world().instances;
+  world_->set_on_detailed_ground(plants, finest_under_trees);
+  plants_.set_plants(plants);
 }
 
 void SceneDrawing::find_near_plants(const Camera& camera) {
@@ -110,12 +119,11 @@ void SceneDrawing::replace(const PlantedWorld& world, Progress& progress) {
   }
   near_eye_.reset();
   const World& next = world.world();
-  if (same_models(world_->scene(), world.scene()))
-    plants_.set_plants(next.instances);
-  else
+  if (!same_models(world_->scene(), world.scene()))
     plants_ = PlantDrawing(next, progress, plants_.detail());
   set_near_plants({});
   world_ = &world;
+  stand_plants();
   terrain_.update(next.ground);
   light_.set_canopy(canopy_shade(next));
   light_.set_sky(next.sky);

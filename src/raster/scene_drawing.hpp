@@ -58,6 +58,7 @@ class SceneDrawing {
     CanopyShade shade;
   };
 
+  void stand_plants();
   void shade_land(const Ground& ground);
   void set_sun();
   void find_near_plants(const Camera& camera);

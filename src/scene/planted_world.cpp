@@ -195,15 +195,27 @@ std::vector<ModelInstance> PlantedWorld::plants_near(DVec2 eye, Progress& progre
   return placed(Planting::near_camera, eye, progress);
 }
 
-void PlantedWorld::set_on_drawn_ground(std::vector<ModelInstance>& plants, Vec3 eye,
-                                       float spacing_angle) const {
-  const Ground& ground = world_->ground;
+namespace {
+
+/// `spacing(foot)` in m.
+template <class Spacing>
+void lift(std::vector<ModelInstance>& plants, const Ground& ground, const Spacing& spacing) {
   parallel_for(0, static_cast<int>(plants.size()), [&](int k) {
     Vec3& foot = plants[static_cast<std::size_t>(k)].position;
     const DVec2 place(foot.x, foot.y);
-    const float spacing = spacing_angle * glm::distance(foot, eye);
-    foot.z += ground.detailed(place, spacing).height - ground.base(place).height;
+    foot.z += ground.detailed(place, spacing(foot)).height - ground.base(place).height;
   });
+}
+
+}  // namespace
+
+void PlantedWorld::set_on_drawn_ground(std::vector<ModelInstance>& plants, Vec3 eye,
+                                       float spacing_angle) const {
+  lift(plants, world_->ground, [&](Vec3 foot) { return spacing_angle * glm::distance(foot, eye); });
+}
+
+void PlantedWorld::set_on_detailed_ground(std::vector<ModelInstance>& plants, float spacing) const {
+  lift(plants, world_->ground, [spacing](Vec3) { return spacing; });
 }
 
 std::unique_ptr<RayScene> trace_scene(const World& world, const ModelTrees& trees,

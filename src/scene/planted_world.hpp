@@ -49,6 +49,8 @@ class PlantedWorld {
   /// Lifts plants from the field to the ground as drawn. `spacing_angle`: distance between samples
   /// of the drawn ground over distance from the eye.
   void set_on_drawn_ground(std::vector<ModelInstance>& plants, Vec3 eye, float spacing_angle) const;
+  /// To the ground with all features down to `spacing` metres.
+  void set_on_detailed_ground(std::vector<ModelInstance>& plants, float spacing) const;
 
   /// The world as the path tracer sees it from a camera; this must outlive it. `size` in pixels.
   /// Any thread. `sky`, if given, in place of the scene's.

@@ -73,6 +73,24 @@ DrawView person_view() {
   return camera_view(camera, 640, 360);
 }
 
+TEST(PlantField, TellsHowManyLeavesStandAroundAndHowHigh) {
+  std::vector<PlantLevels> levels = some_levels();
+  for (PlantLevels& l : levels) l.area = 0.5F;
+  std::vector<PlantSizes> sizes;
+  for (const PlantLevels& l : levels) sizes.push_back(plant_sizes(l));
+  sizes[0].card = true;
+  // Two tufts of 0.4 m and one as large again, within a cell of a square metre; a tree among them.
+  std::vector<ModelInstance> plants(4);
+  plants[2].scale = 2;
+  for (std::size_t k = 0; k < 3; ++k) plants[k].model = 1;
+  const PlantField field(plants, sizes);
+  for (const PlantField::Plant& p : field.plants()) {
+    if (p.model == 0) continue;
+    EXPECT_NEAR(p.drawn.crowd, 0.5F * (1 + 1 + 4), 1e-4F);
+    EXPECT_NEAR(p.drawn.crowd_height, (0.4F + 0.4F + 4 * 0.8F) / 6, 1e-4F);
+  }
+}
+
 TEST(PlantChoice, KeepsTheBudget) {
   const Scenery scenery(20000, 20000);
   for (const int budget : {100'000, 400'000, 2'000'000}) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "scene/build.hpp"
 #include "scene/same_scene.hpp"
 
@@ -34,6 +36,24 @@ look_direction = [0, 1, 0]
 size = [32, 18]
 )" + more,
                      "small.toml", WOLD_SOURCE_DIR);
+}
+
+TEST(PlantedWorld, SetsPlantsOnTheGroundWithItsDetail) {
+  Progress progress;
+  const PlantedWorld world(small_scene(), progress);
+  std::vector<ModelInstance> plants = world.world().instances;
+  ASSERT_GT(plants.size(), 100U);
+  world.set_on_detailed_ground(plants, 0.1F);
+  int moved = 0;
+  for (std::size_t k = 0; k < plants.size(); ++k) {
+    const ModelInstance& before = world.world().instances[k];
+    const DVec2 place(before.position.x, before.position.y);
+    const Ground& ground = world.world().ground;
+    const float rise = ground.detailed(place, 0.1F).height - ground.base(place).height;
+    EXPECT_NEAR(plants[k].position.z, before.position.z + rise, 1e-4F);
+    moved += std::abs(rise) > 0.01F ? 1 : 0;
+  }
+  EXPECT_GT(moved, 50);
 }
 
 TEST(SameScene, TellsLandModelsAndSkyApart) {

@@ -13,10 +13,9 @@ layout(location = 6) in vec4 plant_at;    // m; w: scale
 layout(location = 7) in vec4 plant_turn;  // quaternion
 layout(location = 8) in vec4 plant_share;  // of leaves; part drawn; place in textures
 layout(location = 9) in uvec2 plant_bits;
-layout(location = 10) in vec2 plant_growth;  // in area; leaf area of others around
+layout(location = 10) in vec3 plant_growth;  // in area; leaf area of others around, their height
 
 uniform int first_material;
-uniform float plant_height;  // m, of the model
 uniform mat4 from_eye;  // view_projection of what is relative to the eye
 
 #ifndef DEPTH_ONLY
@@ -40,8 +39,8 @@ void main() {
   normal = turned_by(plant_turn, vertex_normal.xyz);
   crown_light = vec4(turned_by(plant_turn, vertex_light.xyz * (127.0 / 63.0)), vertex_light.w);
   // Among others of its size the sky is seen through those above (Monsi, Saeki, 1953).
-  float above = plant_growth.y * clamp(1.0 - p.z / plant_height, 0.0, 1.0);
-  crown_light *= exp(-0.6 * above);
+  float above = plant_growth.y * clamp(1.0 - plant_at.w * p.z / plant_growth.z, 0.0, 1.0);
+  crown_light *= exp(-0.8 * above);
   material = first_material + int(vertex_identity >> 24u);
   footprint_scale = 1.0 / plant_at.w;
   // Fewer leaves differ less, so that what is seen of many together differs as before (Cook et al.,
