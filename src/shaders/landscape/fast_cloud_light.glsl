@@ -27,22 +27,31 @@ float baked_cloud_light(vec2 place, float height, vec3 sun) {
   return cloud_along(layer, place, ray, sun, span.end, 2 * CLOUD_LIGHT_STEPS);
 }
 
+// The finest level that a place is in, and at its edges some of the next.
 float light_level(vec2 place) {
   vec2 offset = abs(place - light_middle);
-  float level = ceil(log2(max(max(offset.x, offset.y) / light_reach(), 1e-6)));
-  return clamp(level, 0.0, float(light_levels - 1));
+  float halvings = log2(max(max(offset.x, offset.y) / light_reach(), 1e-6));
+  float level = max(ceil(halvings), 0.0);
+  return min(level + smoothstep(level - 0.3, level, halvings), float(light_levels - 1));
 }
 
-// The same, between slices and texels.
-float tabled_cloud_light(vec2 place, float height) {
-  float level = light_level(place);
+// The same, between slices and texels. Between slices by the quadratic B-spline, as the kinks of a
+// linear one are seen as level stripes in near clouds; nothing is left at the layer's top.
+float tabled_cloud_light(vec2 place, float height, float level) {
+  float last = float(light_slices - 1);
   float v = (height - CLOUDS_HEIGHT) / CLOUDS_THICKNESS * float(light_slices) - 0.5;
-  v = clamp(v, 0.0, float(light_slices - 1));
-  float below = min(floor(v), float(light_slices - 2));
+  v = clamp(v, 0.0, last + 0.499);
+  float middle = floor(v + 0.5);
+  float t = v - middle;
+  vec3 weights = vec3(0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t));
   vec2 at = (place / (light_cell * exp2(level)) + 0.5) / float(textureSize(cloud_lights, 0).x);
-  float first = level * float(light_slices) + below;
-  return mix(textureLod(cloud_lights, vec3(at, first), 0.0).r,
-             textureLod(cloud_lights, vec3(at, first + 1.0), 0.0).r, v - below);
+  float first = level * float(light_slices);
+  float below = textureLod(cloud_lights, vec3(at, first + max(middle - 1.0, 0.0)), 0.0).r;
+  float here = textureLod(cloud_lights, vec3(at, first + middle), 0.0).r;
+  float above = middle < last
+                    ? textureLod(cloud_lights, vec3(at, first + middle + 1.0), 0.0).r
+                    : -here;
+  return dot(weights, vec3(below, here, above));
 }
 
 // Share of the sun at a place in the layer. What is near by, less than the table tells apart, is
@@ -53,8 +62,14 @@ float sunlit_share(CloudLayer layer, vec2 place, AirRay ray, vec3 sun) {
   float level = light_level(place);
   float near = min(1.2 * light_cell * exp2(level), span.end);
   float sum = cloud_along(layer, place, ray, sun, near, 2);
-  if (near < span.end)
-    sum += tabled_cloud_light(place + near * sun.xy,
-                              height_after(AIR, ray.height, ray.cosine, near));
+  if (near < span.end) {
+    vec2 at = place + near * sun.xy;
+    float height = height_after(AIR, ray.height, ray.cosine, near);
+    float coarser = fract(level);
+    float beyond = tabled_cloud_light(at, height, floor(level));
+    if (coarser > 0.0)
+      beyond = mix(beyond, tabled_cloud_light(at, height, floor(level) + 1.0), coarser);
+    sum += beyond;
+  }
   return exp(-(layer.clouds.scattering + layer.clouds.absorption) * sum);
 }
