@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "gpu/context.hpp"
+
 namespace wold {
 
 namespace {
@@ -28,8 +30,9 @@ Vec3 snapped(Vec3 place, Vec3 towards_sun, float texel) {
 }  // namespace
 
 ShadowMaps::ShadowMaps(const ShadowSettings& settings) : settings_(settings) {
-  if (settings.size > 0)
-    atlas_ = GpuTarget(2 * settings.size, 2 * settings.size, {}, true, TextureFilter::nearest);
+  if (settings.size <= 0) return;
+  settings_.size = std::min(settings.size, gpu_info().max_texture_size / 2);
+  atlas_ = GpuTarget(2 * settings_.size, 2 * settings_.size, {}, true, TextureFilter::nearest);
 }
 
 float ShadowMaps::radius(int cascade) const {

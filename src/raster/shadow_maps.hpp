@@ -21,7 +21,7 @@ namespace wold {
 inline constexpr int shadow_cascades = 4;
 
 struct ShadowSettings {
-  int size = 2048;            ///< pixels on a side of a map; 0: none
+  int size = 2048;  ///< pixels on a side of a map, fewer where the driver has no more; 0: none
   float nearest_radius = 14;  ///< m, half the width of the first
   float ratio = 4.5F;         ///< from one to the next
 };

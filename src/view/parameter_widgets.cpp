@@ -262,7 +262,7 @@ std::string title_of(std::string_view name) {
     const bool digit = c >= '0' && c <= '9';
     if (digit && !title.empty() && std::isalpha(static_cast<unsigned char>(title.back())))
       title += ' ';
-    title += c == '_' ? ' ' : c;
+    title += c == '_' ? ' ' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   if (!title.empty())
     title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));

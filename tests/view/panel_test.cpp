@@ -58,6 +58,7 @@ TEST(SliderRange, HoldsEveryValueOfEveryParameterOfAScene) {
 TEST(ParameterWidgets, TextsOfListsAndHours) {
   EXPECT_EQ(title_of("sun_intensity"), "Sun intensity");
   EXPECT_EQ(title_of("soil_color1"), "Soil color 1");
+  EXPECT_EQ(title_of("CLOUD_COVERAGE"), "Cloud coverage");
   EXPECT_EQ(parse_list(list_text({1, -2.5, 1e-7})), (std::vector<double>{1, -2.5, 1e-7}));
   EXPECT_EQ(parse_list(" [1, 2] "), (std::vector<double>{1, 2}));
   EXPECT_TRUE(parse_list("").empty());
