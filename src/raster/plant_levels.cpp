@@ -51,7 +51,7 @@ class Builder {
       sheet_.push_back(materials[m].settings().transmission != Vec3(0));
     }
     openness_.emplace(mesh_, sheet_);
-    levels_.extinction = openness_->mean_extinction();
+    levels_.extinction = openness_->mean_extinction(leaf_area());
   }
 
   PlantLevels build() {
@@ -67,6 +67,18 @@ class Builder {
  private:
   /// Leaves, and what has too few triangles to be a tube: the parts of a flower's head.
   bool is_sheet(const PlantElement& e) const { return sheet_[e.part] || e.count <= simple_leaf; }
+
+  /// As the mean over the surface of leaves, m².
+  float leaf_area() const {
+    double sum = 0;
+    double squares = 0;
+    for (const PlantElement& e : elements_.list) {
+      if (!is_sheet(e)) continue;
+      sum += static_cast<double>(e.area);
+      squares += static_cast<double>(e.area) * static_cast<double>(e.area);
+    }
+    return sum > 0 ? static_cast<float>(squares / sum) : 0.0F;
+  }
 
   /// Ranks by area, so that the kept area is the share, of leaves and wood each; stems have none.
   void order() {

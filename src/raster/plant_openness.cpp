@@ -79,15 +79,19 @@ float PlantOpenness::extinction(Vec3 place) const {
   return extinction_[cell(static_cast<int>(at.x), static_cast<int>(at.y), static_cast<int>(at.z))];
 }
 
-float PlantOpenness::mean_extinction() const {
-  // Leaf area of a cell goes as its extinction.
+float PlantOpenness::mean_extinction(float leaf_area) const {
+  const float volume = cell_size_.x * cell_size_.y * cell_size_.z;
+  // A leaf does not shade itself; of a large one a part lies in the cell.
+  const float own =
+      projection * clumping / volume * std::min(leaf_area, std::pow(volume, 2.0F / 3.0F));
   double sum = 0;
-  double squares = 0;
+  double others = 0;
+  // Leaf area of a cell goes as its extinction.
   for (const float e : extinction_) {
     sum += static_cast<double>(e);
-    squares += static_cast<double>(e) * static_cast<double>(e);
+    others += static_cast<double>(e * std::max(e - own, 0.0F));
   }
-  return sum > 0 ? static_cast<float>(squares / sum) : 0.0F;
+  return sum > 0 ? static_cast<float>(others / sum) : 0.0F;
 }
 
 Vec4 PlantOpenness::gather(Vec3 place) const {

@@ -21,8 +21,8 @@ class PlantOpenness {
 
   /// Moment in x, y, z, mean in w, at a place of the model.
   Vec4 at(Vec3 place) const;
-  /// Extinction as the mean over leaves, 1/m.
-  float mean_extinction() const;
+  /// Extinction by others around a leaf of this area (m²) as the mean over leaves, 1/m.
+  float mean_extinction(float leaf_area) const;
 
  private:
   float extinction(Vec3 place) const;

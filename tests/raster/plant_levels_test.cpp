@@ -125,10 +125,14 @@ TEST(PlantOpenness, ExtinctionIsThatAmongTheLeaves) {
     add(0.2F * Vec3(k % 10, k / 10 % 10, k / 100) + Vec3(0.05F, 0.05F, 0.1F));
   add({7.8F, 1, 1});
   mesh.parts = {{"leaf", 0, 1001}};
-  EXPECT_NEAR(PlantOpenness(mesh, {true}).mean_extinction(), 0.5F * 0.9F * 5 / 8, 0.06F);
+  const PlantOpenness openness(mesh, {true});
+  EXPECT_NEAR(openness.mean_extinction(0), 0.5F * 0.9F * 5 / 8, 0.06F);
+  // Of the eight leaves in a cell one does not shade itself.
+  EXPECT_NEAR(openness.mean_extinction(0.005F), 7.0F / 8 * openness.mean_extinction(0), 0.01F);
+  EXPECT_EQ(openness.mean_extinction(1), 0);
   TriangleMesh none;
   none.positions = {Vec3(0), Vec3(1, 0, 0)};
-  EXPECT_EQ(PlantOpenness(none, {true}).mean_extinction(), 0);
+  EXPECT_EQ(PlantOpenness(none, {true}).mean_extinction(0), 0);
 }
 
 TEST(PlantOpenness, IsLessWithinACrownAndMostTowardsItsOutside) {
