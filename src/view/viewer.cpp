@@ -306,9 +306,9 @@ void Viewer::want_shader(bool wanted) {
 }
 
 float Viewer::shader_stops() const {
-  // A fixed exposure is the scene's for its own light; the shader sets one that suits.
-  const ToneMapping& tone = edited_.picture;
-  return extra_stops_ + tone.exposure - (tone.auto_exposure ? 0 : usual_exposure_);
+  // The scene's is for its own light, or makes up for what metering takes from bright land; the
+  // shader goes by the light.
+  return extra_stops_ + edited_.picture.exposure - usual_exposure_;
 }
 
 void Viewer::settle(Progress& progress) {

@@ -292,6 +292,21 @@ TEST_F(ViewerTest, TheShaderFollowsOtherLandAndCanBeCancelled) {
   EXPECT_TRUE(viewer_->take_notices().empty());
 }
 
+TEST_F(ViewerTest, WhatASceneAddsToMeteringIsNotAddedToItsShader) {
+  settings_.shader = true;
+  std::vector<double> means;
+  for (const char* picture : {"", "[picture]\nexposure = 2\n"}) {
+    write(std::string(picture) + small_scene);
+    viewer_ = make();
+    ASSERT_TRUE(wait_until([&] { return viewer_->shader_shown(); }));
+    viewer_->set_seconds(0);
+    viewer_->restart_picture();
+    viewer_->frame({});
+    means.push_back(mean_of(viewer_->displayed()));
+  }
+  EXPECT_NEAR(means[1], means[0], 1e-4);
+}
+
 TEST_F(ViewerTest, KnobsOfTheShaderAreEditedAndStay) {
   viewer_->want_shader(true);
   ASSERT_TRUE(wait_until([&] { return viewer_->shader_shown(); }));
