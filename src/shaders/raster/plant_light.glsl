@@ -127,7 +127,11 @@ vec3 crown_radiance(vec3 place, vec3 mean_normal, float spread, vec3 reflectance
   // Far away one leaf is drawn for many, and must not glitter for all of them; they mirror all that
   // is around.
   float many = max(spread, far_share);
-  vec3 mirrored = reflect(-to_eye, normal) * (1.0 - many);
+  // Where a rough coat mirrors most: between the normal and the mirrored direction. S. Lagarde,
+  // C. de Rousiers, "Moving Frostbite to physically based rendering", SIGGRAPH 2014, 4.9.3.
+  float alpha = roughness * roughness;
+  float towards = (1.0 - alpha) * (sqrt(1.0 - alpha) + alpha);
+  vec3 mirrored = normalize(mix(normal, reflect(-to_eye, normal), towards)) * (1.0 - many);
   vec3 sky_seen = crown_ambient(place, mirrored, crown_light, vec3(0.0));
   return light + crown_coat(normal, many, to_eye, roughness, sky_seen, sun);
 }
