@@ -65,21 +65,24 @@ Vec3 radiance_below(const Sky& sky) {
   return Vec3(sum / double{rows * columns});
 }
 
-GpuTexture sky_texture(const Grid<Vec3>& nodes) {
+namespace {
+
+GpuTexture color_texture(const Grid<Vec3>& colors, bool repeat) {
   std::vector<float> texels;
-  texels.reserve(static_cast<std::size_t>(nodes.width()) *
-                 static_cast<std::size_t>(nodes.height()) * 4);
-  for (int j = 0; j < nodes.height(); ++j)
-    for (int i = 0; i < nodes.width(); ++i) {
-      const Vec3 v = nodes(i, j);
-      texels.insert(texels.end(), {v.x, v.y, v.z, 1});
-    }
-  // Rows do not repeat, but the outermost lie at zenith and nadir, where a mistake of half a texel
-  // across them is not seen.
-  GpuTexture texture(nodes.width(), nodes.height(),
-                     {.format = PixelFormat::rgba32f, .repeat = true});
+  texels.reserve(4 * colors.size());
+  for (const Vec3& c : colors.values()) texels.insert(texels.end(), {c.x, c.y, c.z, 1});
+  GpuTexture texture(colors.width(), colors.height(),
+                     {.format = PixelFormat::rgba32f, .repeat = repeat});
   texture.upload(texels);
   return texture;
+}
+
+}  // namespace
+
+GpuTexture sky_texture(const Grid<Vec3>& nodes) {
+  // Rows do not repeat, but the outermost lie at zenith and nadir, where a mistake of half a texel
+  // across them is not seen.
+  return color_texture(nodes, true);
 }
 
 SceneLight::SceneLight(Sky sky, const ShadowSettings& shadows)
@@ -113,11 +116,7 @@ void SceneLight::set_undergrowth(const CanopyShade& undergrowth) {
 
 void SceneLight::set_land_colors(const LandColors& colors) {
   land_place_ = colors.place;
-  const Grid<Vec3>& grid = colors.reflectance;
-  std::vector<float> texels;
-  for (const Vec3& c : grid.values()) texels.insert(texels.end(), {c.x, c.y, c.z, 1});
-  land_colors_ = GpuTexture(grid.width(), grid.height(), {.format = PixelFormat::rgba32f});
-  land_colors_.upload(texels);
+  land_colors_ = color_texture(colors.reflectance, false);
 }
 
 void SceneLight::apply(const GpuProgram& program) const {

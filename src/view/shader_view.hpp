@@ -43,11 +43,11 @@ class ShaderView {
   LandscapeSettings& knobs() { return knobs_; }
   /// As the scene (and `defines`) have them.
   const LandscapeSettings& scene_knobs() const { return landscape_.settings; }
-  /// Knobs that sun, camera and exposure of the view set are not among them.
+  /// All knobs but those that sun, camera and exposure of the view set.
   static ParameterSet free_knobs();
-  /// Compiles the landscape anew with its knobs as they are now, if any is another one.
+  /// Compiles the landscape anew with its knobs as they are now; what is being made gets them too.
   void knobs_changed();
-  /// Landscapes shown so far: `scene_knobs` may be others after each.
+  /// Landscapes made so far: `scene_knobs` may be others after each.
   int generation() const { return generation_; }
 
   /// The next picture has nothing to do with the last.
