@@ -307,16 +307,21 @@ class Page(unittest.TestCase):
         self.browser.devtools("Emulation.clearDeviceMetricsOverride")
         self.browser.press(" ", 0.05)
         low = self.browser.run("return landscape.scale")
-        # Quick frames bring it back, up to what was too much before; later beyond.
-        frames = """
-            for (let k = 0; k < 300; ++k) { landscape.frames = 12 * k; adapt(arguments[0]); }
-            return landscape.scale;"""
-        self.browser.run("mean = 8; slow = 0; ceiling = 0.6; retry = performance.now() + 1e6;")
-        self.assertGreater(self.browser.run(frames, 8), low)
-        self.assertAlmostEqual(self.browser.run(frames, 8), max(0.6, low), delta=0.02)
-        self.browser.run("mean = 8; retry = 0;")
-        self.assertEqual(self.browser.run(frames, 8), 1)
-        self.assertLess(self.browser.run(frames, 60), 0.2)
+        # Quick frames bring it back, up to what was too much before; later beyond. All in one
+        # script: between two, the page may draw a frame of its own, whose time counts as well.
+        quick, limited, free, slow = self.browser.run("""
+            const after = (milliseconds) => {
+              for (let k = 0; k < 300; ++k) { landscape.frames = 12 * k; adapt(milliseconds); }
+              return landscape.scale;
+            };
+            mean = 8; slow = 0; ceiling = 0.6; retry = performance.now() + 1e6;
+            const scales = [after(8), after(8)];
+            mean = 8; retry = 0;
+            return scales.concat(after(8), after(60));""")
+        self.assertGreater(quick, low)
+        self.assertAlmostEqual(limited, max(0.6, low), delta=0.02)
+        self.assertEqual(free, 1)
+        self.assertLess(slow, 0.2)
         self.assertGreater(self.browser.run(size)[0], 0)
 
     def test_lost_context_comes_back(self):
