@@ -64,7 +64,7 @@ class Scatterer {
         place_(place),
         seed_(seed),
         plan_(plan_scatter(settings, species)),
-        map_(settings.where, ground, place.mask, place.centre, random_bits(seed, 1)) {
+        map_(scatter_suitability(ground, settings, place, seed)) {
     if (!(plan_.candidates > 0)) return;
     for (const SpeciesSettings& s : species)
       patch_seed_.push_back(static_cast<std::uint32_t>(random_bits(seed, hash_text(s.name))));
@@ -324,6 +324,11 @@ SpacingPlan plan_scatter(const ScatterSettings& settings,
   for (const SpeciesSettings& s : species)
     radius.push_back(std::max({s.exclusion_radius(), static_cast<float>(0.5 * apart), 1e-3F}));
   return plan_spacing(radius, density);
+}
+
+SuitabilityMap scatter_suitability(const Heightfield& ground, const ScatterSettings& settings,
+                                   const ScatterPlace& place, std::uint64_t seed) {
+  return {settings.where, ground, place.mask, place.centre, random_bits(seed, 1)};
 }
 
 std::vector<Instance> scatter(const Heightfield& ground, const ScatterSettings& settings,

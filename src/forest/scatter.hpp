@@ -56,6 +56,11 @@ struct ScatterPlace {
 /// its weight asks for. Throws Error(input) for a name that no species has.
 SpacingPlan plan_scatter(const ScatterSettings& settings, std::span<const SpeciesSettings> species);
 
+/// Where `scatter` with this seed lets plants stand, and how densely. Refers to the ground and the
+/// place's mask.
+SuitabilityMap scatter_suitability(const Heightfield& ground, const ScatterSettings& settings,
+                                   const ScatterPlace& place, std::uint64_t seed);
+
 /// All plants in the window, in an order fixed by their places. `Instance::species` counts in
 /// `species`. Throws as plan_scatter, Error(limit) when they would not fit in memory, and
 /// Error(cancelled).

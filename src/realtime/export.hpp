@@ -16,8 +16,8 @@ enum class ShaderTarget {
 /// Throws Error(usage) for a height map to a target other than html, which alone can carry one.
 std::string export_shader(const Landscape& landscape, ShaderTarget target);
 
-/// What shadertoy would get, also of a landscape with a height map, which it expects in the
-/// sampler `height_map`.
+/// What shadertoy would get, also of a landscape with maps, which it expects in the samplers of
+/// LandTextures.
 std::string landscape_tab(const Landscape& landscape);
 
 /// The page around a landscape (export_page.cpp).

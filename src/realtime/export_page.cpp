@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "realtime/export.hpp"
+#include "realtime/packing.hpp"
 #include "realtime/page.hpp"
 #include "realtime/shader_strip.hpp"
 #include "shaders/assembly.hpp"
@@ -48,6 +49,22 @@ double number(const Value& value) {
   return std::get<double>(value);
 }
 
+Json heights_json(const HeightMap& map) {
+  return {{"low", map.heights.low},
+          {"high", map.heights.high},
+          {"data", packed(map.samples, map.width)}};
+}
+
+Json map_json(const LandMap& map) {
+  const int width = map.heights.width;
+  Json json{
+      {"width", width}, {"height", map.heights.height}, {"heights", heights_json(map.heights)}};
+  if (map.water) json["water"] = heights_json(*map.water);
+  if (!map.covers.empty()) json["covers"] = packed(map.covers, width);
+  if (!map.trees.empty()) json["trees"] = packed(map.trees, width);
+  return json;
+}
+
 Json scene_json(const Landscape& landscape) {
   const LandscapeSettings& s = landscape.settings;
   const ParameterSet set = describe(s);
@@ -72,12 +89,7 @@ Json scene_json(const Landscape& landscape) {
                {"direction", s.cam_direction},
                {"tilt", s.cam_tilt}}},
              {"knobs", knobs}};
-  if (landscape.map)
-    scene["map"] = {{"width", landscape.map->width},
-                    {"height", landscape.map->height},
-                    {"low", landscape.map->heights.low},
-                    {"high", landscape.map->heights.high},
-                    {"data", packed(*landscape.map)}};
+  if (landscape.map) scene["map"] = map_json(*landscape.map);
   return scene;
 }
 

@@ -14,13 +14,14 @@
 #include "realtime/fast_eye.hpp"
 #include "realtime/fast_passes.hpp"
 #include "realtime/fast_rings.hpp"
-#include "realtime/landscape_picture.hpp"
+#include "realtime/land_textures.hpp"
 
 namespace wold {
 
 namespace {
 
 constexpr int view_texels = 7;
+constexpr int first_map_unit = 15;  // those before are the passes'
 constexpr float most_samples_still = 32;  // that a pixel is the mean of
 constexpr float most_samples = 4;
 
@@ -66,7 +67,7 @@ struct FastLandscapeDrawing::State {
   FastPasses passes;
   double finest = 1;
   double finest_shadow = 10;
-  GpuTexture map;
+  LandTextures maps;
 
   std::optional<RingSquares> squares;
   std::optional<RingSquares> horizon_squares;
@@ -101,7 +102,7 @@ FastLandscapeDrawing::State::State(const Landscape& landscape, const FastLandsca
     : knobs(landscape.settings), settings(s), passes(landscape) {
   finest = finest_spacing(landscape, knobs.octaves);
   finest_shadow = finest_spacing(landscape, knobs.octaves_shadow);
-  if (landscape.map) map = height_map_texture(*landscape.map);
+  if (landscape.map) maps = LandTextures(*landscape.map);
   for (GpuTarget& v : views_)
     v = GpuTarget(view_texels, 1, std::array{PixelFormat::rgba32f}, false, TextureFilter::nearest);
   sky = GpuTarget(
@@ -172,7 +173,7 @@ void FastLandscapeDrawing::State::bind_all(const GpuProgram& program) const {
   bind("sky_by_air", sky.color(0));
   bind("sky_by_aerosol", sky.color(1));
   bind("sky_passed", sky.color(2));
-  bind("height_map", map);
+  maps.bind(program, first_map_unit);
   if (squares) {
     program.set("ring_size", squares->size());
     program.set("ring_levels", squares->levels());
@@ -275,6 +276,7 @@ void FastLandscapeDrawing::State::draw_quarter(int width, int height, bool same_
     program.set("iResolution", Vec3(width, height, 1));
     program.set("turn", turns[static_cast<std::size_t>(number % 4)]);
     program.set("shift", round == 0 ? Vec2(0) : shift - 0.5F);
+    program.set("start_turn", part(0.618033988749895));
     return program;
   };
   const auto read = [](const GpuProgram& program, const char* name, const GpuTarget& target,
@@ -286,7 +288,6 @@ void FastLandscapeDrawing::State::draw_quarter(int width, int height, bool same_
   land.bind();
   draw_full_screen();
   const GpuProgram& march = begin(FastPass::clouds);
-  march.set("start_turn", part(0.618033988749895));
   read(march, "land_picture", land, 13);
   clouded.bind();
   draw_full_screen();

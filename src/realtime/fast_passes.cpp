@@ -20,9 +20,8 @@ constexpr const char* includes =
     "\n#include \"landscape/fast_rings.glsl\"\n#include \"landscape/fast_view.glsl\"\n"
     "#include \"landscape/fast_resolve.glsl\"\n"
     "#include \"landscape/fast_air.glsl\"\n#include \"landscape/fast_shade.glsl\"\n"
-    "#include \"landscape/fast_cloud_light.glsl\"\n#include \"landscape/fast_land.glsl\"\n#include "
-    "\"landscape/fast_clouds.glsl\"\n"
-    "#include \"landscape/fast_bake.glsl\"\n";
+    "#include \"landscape/fast_cloud_light.glsl\"\n#include \"landscape/fast_clouds.glsl\"\n"
+    "#include \"landscape/fast_land.glsl\"\n#include \"landscape/fast_bake.glsl\"\n";
 
 const char* main_of(FastPass pass) {
   switch (pass) {

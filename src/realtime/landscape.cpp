@@ -9,6 +9,7 @@
 #include "realtime/land_function.hpp"
 #include "realtime/light_tables.hpp"
 #include "scene/build.hpp"
+#include "scene/dressing.hpp"
 
 namespace wold {
 
@@ -119,10 +120,9 @@ float exposure_of(const Scene& scene, const Relief& relief, bool trees) {
   return std::clamp(0.6F * std::log2(0.2F / std::max(level, 0.01F)), 0.0F, 1.0F);
 }
 
-bool plants_trees(const Scene& scene) {
-  return std::any_of(scene.species.begin(), scene.species.end(),
-                     [](const SpeciesSettings& s) { return s.height.high >= 4; }) &&
-         !scene.scatter.empty();
+bool has_trees(const Scene& scene) {
+  return std::any_of(scene.scatter.begin(), scene.scatter.end(),
+                     [&](const ScatterSettings& s) { return plants_trees(scene, s); });
 }
 
 /// Nobody wants to read 135.03426.
@@ -208,7 +208,17 @@ void set_values(const Scene& scene, const Relief& relief, float largest_feature,
   add("SNOW_HEIGHT", range_text(g.snow_height), "m: none below, all above");
   add("SNOW_SLOPE", range_text(g.snow_slope), "degrees: all below, none above");
   add("TREE_LINE", num(std::min({g.rock_height.low, g.snow_height.low, 1e5F})), "m");
-  add("HAS_WOODS", plants_trees(scene) ? "1" : "0", "");
+  add("HAS_WOODS", has_trees(scene) ? "1" : "0", "");
+  const bool has_water = out.map && out.map->water;
+  add("HAS_WATER", has_water ? "1" : "0", "");
+  add("HAS_COVERS", out.map && !out.map->covers.empty() ? "1" : "0", "");
+  add("HAS_TREE_MAP", out.map && !out.map->trees.empty() ? "1" : "0", "");
+  if (has_water) {
+    add("WATER_COLOR", vec3_text(scene.water.color), "of deep water");
+    add("WATER_CLARITY", num(scene.water.clarity), "m, where a third of the bed still shows");
+    add("WATER_ROUGHNESS", num(scene.water.roughness), "of what it mirrors");
+    add("WATER_RIPPLES", num(scene.water.ripples), "slope of small waves");
+  }
   const Clouds& c = scene.sky.clouds;
   add("CLOUD_BILLOWS", num(c.billows), "depth of the notches in clouds");
   add("CLOUD_ORDERS", fmt::format("{}", c.orders), "how often clouds scatter light");
@@ -216,7 +226,7 @@ void set_values(const Scene& scene, const Relief& relief, float largest_feature,
   add("MAX_CLOUD_DISTANCE", "90000.0", "m");
   add("SUN_ILLUMINANCE", vec3_text(sun_outside(scene.sky)), "outside the air, klx");
   add("NIGHT_BRIGHTNESS", "1e-6", "kcd/m²");
-  if (out.map) add("MAP_CELL", num(out.map->cell), "m between samples of the height map");
+  if (out.map) add("MAP_CELL", num(out.map->heights.cell), "m between samples of the height map");
 }
 
 /// Snow that a step laid on the land, where the ground's own snow lies higher than the land.
@@ -246,11 +256,18 @@ Landscape landscape_of(const Scene& scene, const LandscapeOptions& options, Prog
   Relief relief;
   float largest = land.largest_feature;
   if (options.source == LandSource::map) {
-    std::optional<Heightfield> built;
-    if (options.finished == nullptr) built = build_terrain(scene, progress).field;
-    const Heightfield& finished = built ? *built : *options.finished;
+    std::optional<TerrainResult> built;
+    GroundDressing dressing;
+    if (!options.finished) {
+      built = build_terrain(scene, progress);
+      dressing = dress_ground(scene, *built, {}, progress);
+    }
+    const FinishedLand land_there =
+        options.finished ? *options.finished : FinishedLand{built->field, built->maps, dressing};
+    const Heightfield& finished = land_there.field;
     out.left_out.clear();
-    out.map = height_map(finished, options.map_size);
+    out.map = land_map(finished, land_there.dressing,
+                       tree_density(scene, finished, land_there.maps, progress), options.map_size);
     out.land = "#include \"landscape/height_map.glsl\"\n";
     relief = relief_of(finished.height);
     largest = 0.25F * static_cast<float>(finished.size().x);
@@ -264,8 +281,9 @@ Landscape landscape_of(const Scene& scene, const LandscapeOptions& options, Prog
     out.land = land.text;
   }
   Scene dressed = scene;
-  add_snow(scene, relief, dressed.ground);
-  out.settings.trees = plants_trees(scene) ? 0.62F : 0.0F;
+  // What a step laid on the land shows as a cover, where covers can be told.
+  if (!out.map || out.map->covers.empty()) add_snow(scene, relief, dressed.ground);
+  if (has_trees(scene)) out.settings.trees = out.map && !out.map->trees.empty() ? 1.0F : 0.62F;
   set_sky(scene, relief, out);
   out.settings.exposure = rounded(exposure_of(dressed, relief, out.settings.trees > 0), 0.05F);
   set_camera(scene, options.camera, relief, out);

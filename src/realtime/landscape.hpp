@@ -1,12 +1,13 @@
 #pragma once
 // A scene as a landscape that a fragment shader draws: its knobs, its values, its land.
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/progress.hpp"
-#include "realtime/height_map.hpp"
+#include "realtime/land_map.hpp"
 #include "realtime/landscape_settings.hpp"
 #include "scene/scene.hpp"
 
@@ -30,16 +31,23 @@ struct Landscape {
   std::vector<LandscapeValue> values;
   std::string tables;                 ///< GLSL: light by the sun's height
   std::string land;                   ///< GLSL of `vec3 land(vec2 place, float spacing)`
-  std::optional<HeightMap> map;       ///< where the land is a map
+  std::optional<LandMap> map;         ///< where the land is a map
   std::vector<std::string> left_out;  ///< steps that the land's function lacks
   std::string stand_in;               ///< what stands for them, "" for nothing
 };
 
+/// Land that is built already: what its steps made, and what lies on it.
+struct FinishedLand {
+  const Heightfield& field;
+  const std::map<std::string, Grid<float>>& maps;
+  const GroundDressing& dressing;
+};
+
 struct LandscapeOptions {
   LandSource source = LandSource::function;
-  int map_size = 1025;                    ///< samples on a side at most
-  std::string camera = {};                ///< one of the scene's; empty: the first
-  const Heightfield* finished = nullptr;  ///< the land, where it is built already
+  int map_size = 1025;                                  ///< samples on a side at most
+  std::string camera = {};                              ///< one of the scene's; empty: the first
+  std::optional<FinishedLand> finished = std::nullopt;  ///< used where the land is a map
 };
 
 /// Whether all steps that change the ground are functions of the place.

@@ -26,54 +26,16 @@ GpuProgram program_of(const std::string& body) {
           assemble_shader_text("landscape", before + body + after, dialect)};
 }
 
-/// Each sample the mean of four.
-std::vector<float> halved(const std::vector<float>& fine, int width, int height) {
-  const int w = std::max(1, width / 2);
-  const int h = std::max(1, height / 2);
-  std::vector<float> out;
-  const auto at = [&](int i, int j) {
-    return fine[static_cast<std::size_t>(std::min(j, height - 1)) *
-                    static_cast<std::size_t>(width) +
-                static_cast<std::size_t>(std::min(i, width - 1))];
-  };
-  for (int j = 0; j < h; ++j)
-    for (int i = 0; i < w; ++i)
-      out.push_back(0.25F * (at(2 * i, 2 * j) + at(2 * i + 1, 2 * j) + at(2 * i, 2 * j + 1) +
-                             at(2 * i + 1, 2 * j + 1)));
-  return out;
-}
-
 }  // namespace
-
-GpuTexture height_map_texture(const HeightMap& map) {
-  GpuTexture texture(map.width, map.height,
-                     {.format = PixelFormat::r32f, .filter = TextureFilter::nearest, .levels = 0});
-  std::vector<float> values;
-  for (int j = 0; j < map.height; ++j)
-    for (int i = 0; i < map.width; ++i) values.push_back(map.at(i, j));
-  int width = map.width;
-  int height = map.height;
-  for (int level = 0;; ++level) {
-    texture.upload(std::span<const float>(values), 0, level);
-    if (width == 1 && height == 1) return texture;
-    values = halved(values, width, height);
-    width = std::max(1, width / 2);
-    height = std::max(1, height / 2);
-  }
-}
 
 LandscapeDrawing::LandscapeDrawing(const Landscape& landscape)
     : body_(landscape_body(landscape)), free_body_(landscape_body(landscape, {"FIELD_OF_VIEW"})) {
-  prepare(landscape.map);
+  if (landscape.map) maps_ = LandTextures(*landscape.map);
 }
 
-LandscapeDrawing::LandscapeDrawing(const std::string& fragment, const std::optional<HeightMap>& map)
+LandscapeDrawing::LandscapeDrawing(const std::string& fragment, const std::optional<LandMap>& map)
     : body_(fragment), free_body_(fragment) {
-  prepare(map);
-}
-
-void LandscapeDrawing::prepare(const std::optional<HeightMap>& map) {
-  if (map) map_ = height_map_texture(*map);
+  if (map) maps_ = LandTextures(*map);
 }
 
 void LandscapeDrawing::draw(const GpuProgram& program, int width, int height, float time) const {
@@ -82,10 +44,7 @@ void LandscapeDrawing::draw(const GpuProgram& program, int width, int height, fl
   program.set("iResolution", Vec3(width, height, 1));
   program.set("iTime", time);
   program.set("iMouse", Vec4(0));
-  if (map_) {
-    program.set("height_map", 0);
-    map_.bind(0);
-  }
+  maps_.bind(program, 0);
   draw_full_screen();
 }
 

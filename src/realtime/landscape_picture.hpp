@@ -7,13 +7,11 @@
 
 #include "gpu/objects.hpp"
 #include "image/image.hpp"
+#include "realtime/land_textures.hpp"
 #include "realtime/landscape.hpp"
 #include "render/camera.hpp"
 
 namespace wold {
-
-/// The map in 32 bits, with mipmaps: what landscape/height_map.glsl reads.
-GpuTexture height_map_texture(const HeightMap& map);
 
 /// A program for one landscape. Needs a current context, at its end too.
 class LandscapeDrawing {
@@ -22,7 +20,7 @@ class LandscapeDrawing {
   explicit LandscapeDrawing(const Landscape& landscape);
   /// `fragment` is a whole shader text that defines `mainImage` and needs nothing but Shadertoy's
   /// uniforms: what was exported. Its field of view is its own.
-  LandscapeDrawing(const std::string& fragment, const std::optional<HeightMap>& map);
+  LandscapeDrawing(const std::string& fragment, const std::optional<LandMap>& map);
 
   /// Draws over the whole of the bound target, width x height pixels, `time` seconds into the
   /// flight.
@@ -31,13 +29,12 @@ class LandscapeDrawing {
   void draw(int width, int height, float time, const Camera& camera) const;
 
  private:
-  void prepare(const std::optional<HeightMap>& map);
   void draw(const GpuProgram& program, int width, int height, float time) const;
   std::string body_;
   std::string free_body_;      // with the camera's field of view
   mutable GpuProgram flight_;  // each made when it is first wanted: drivers take seconds
   mutable GpuProgram free_;
-  GpuTexture map_;
+  LandTextures maps_;
 };
 
 /// R, G, B of what was drawn into a target.

@@ -4,12 +4,11 @@
 #include <chrono>
 #include <cmath>
 
-#include "base/hash.hpp"
 #include "base/parallel.hpp"
 #include "render/ground_mesh.hpp"
 #include "scene/build.hpp"
+#include "scene/dressing.hpp"
 #include "scene/same_scene.hpp"
-#include "scene/scene_maps.hpp"
 
 namespace wold {
 
@@ -31,7 +30,6 @@ using Clock = std::chrono::steady_clock;
 
 // Plants lower than this do not count when a view is chosen.
 constexpr float least_landmark = 1.2F;  // m
-constexpr float least_tree = 4;         // m
 constexpr int camera_ground_samples = 512;
 
 /// Runs a stage and adds its time to the table.
@@ -50,54 +48,13 @@ TerrainResult build_surroundings(const Scene& scene, Progress& progress) {
                   scene.folder, progress);
 }
 
-std::vector<CoverLayer> build_covers(const Scene& scene, const TerrainResult& terrain,
-                                     const TerrainResult& around, Progress& progress) {
-  const TerrainDomain place{terrain.field.origin, terrain.field.size()};
-  std::vector<CoverLayer> layers;
-  for (const GroundCover& cover : scene.covers) {
-    const std::string& map = cover.map.path;
-    Heightfield inner = scene_map(scene, map, terrain.field, terrain.maps, place, progress);
-    Heightfield outer;
-    if (around.maps.contains(map))
-      outer = {around.maps.at(map), around.field.origin, around.field.cell};
-    const auto seed = static_cast<std::uint32_t>(
-        random_bits(scene.header.seed, hash_text(std::string_view("cover")), layers.size()));
-    layers.emplace_back(cover, std::move(inner), std::move(outer), seed);
-  }
-  return layers;
-}
-
-WaterLayer build_water(const Scene& scene, const TerrainResult& ground, const Grid<float>& depth) {
-  return depth.empty() ? WaterLayer() : WaterLayer(ground.field, depth, scene.water.least_depth);
-}
-
-GroundDressing dress(const Scene& scene, const TerrainResult& terrain, const TerrainResult& around,
-                     Progress& progress) {
-  GroundDressing dressing;
-  dressing.covers = build_covers(scene, terrain, around, progress);
-  dressing.water = scene.water;
-  const std::string& map = scene.water.depth.path;
-  const TerrainDomain place{terrain.field.origin, terrain.field.size()};
-  dressing.inner_water = build_water(
-      scene, terrain, scene_map(scene, map, terrain.field, terrain.maps, place, progress).height);
-  if (around.maps.contains(map))
-    dressing.outer_water = build_water(scene, around, around.maps.at(map));
-  return dressing;
-}
-
 /// Without trees in the scene there are none in the distance.
 GroundMaterial ground_material(const Scene& scene) {
   GroundMaterial material = scene.ground;
-  const auto tall = [&](const std::string& name) {
-    return std::any_of(scene.species.begin(), scene.species.end(), [&](const SpeciesSettings& s) {
-      return s.name == name && s.height.high >= least_tree;
-    });
-  };
-  const bool trees = std::any_of(scene.scatter.begin(), scene.scatter.end(), [&](const auto& s) {
-    return s.where.within <= 0 && s.density > 0 &&
-           (s.species.empty() || std::any_of(s.species.begin(), s.species.end(),
-                                             [&](const auto& entry) { return tall(entry.first); }));
-  });
+  const bool trees =
+      std::any_of(scene.scatter.begin(), scene.scatter.end(), [&](const ScatterSettings& s) {
+        return s.where.within <= 0 && plants_trees(scene, s);
+      });
   if (!trees) material.distant_forest = 0;
   return material;
 }
@@ -127,7 +84,7 @@ PlantedWorld::PlantedWorld(Scene scene, Progress& progress, const PlantedWorld* 
     build_land(before, progress);
     return 0;
   });
-  GroundDressing dressing = dress(scene_, land_->inner, land_->outer, progress);
+  GroundDressing dressing = dress_ground(scene_, land_->inner, land_->outer, progress);
   PlantModels models = timed(seconds_, "plants", [&] { return models_like(before, progress); });
   first_model_ = std::move(models.first_model);
   world_ = std::make_unique<World>(

@@ -94,14 +94,15 @@ PlantModels build_models(const Scene& scene, Progress& progress) {
   return models;
 }
 
+std::uint64_t scatter_seed(const Scene& scene, std::size_t k) {
+  return random_bits(scene.header.seed, hash_text(std::string_view("scatter")), k);
+}
+
 std::vector<Instance> Planter::plants(Planting which, DVec2 camera, Progress& progress) const {
   const bool near_camera = which == Planting::near_camera;
   std::vector<Instance> all;
   const auto add = [&](const std::vector<Instance>& some) {
     all.insert(all.end(), some.begin(), some.end());
-  };
-  const auto seed = [&](std::string_view section, std::size_t k) {
-    return random_bits(scene_.header.seed, hash_text(section), k);
   };
   for (std::size_t k = 0; k < scene_.scatter.size(); ++k) {
     const ScatterSettings& settings = scene_.scatter[k];
@@ -113,13 +114,14 @@ std::vector<Instance> Planter::plants(Planting which, DVec2 camera, Progress& pr
     place.high = field_.origin + field_.size();
     place.centre = camera;
     place.mask = mask.height.empty() ? nullptr : &mask;
-    add(scatter(field_, settings, scene_.species, place, seed("scatter", k), progress));
+    add(scatter(field_, settings, scene_.species, place, scatter_seed(scene_, k), progress));
   }
   for (std::size_t k = 0; k < scene_.grids.size(); ++k) {
     const GridSpawner& grid = scene_.grids[k];
     if ((grid.around == GridCentre::camera) != near_camera) continue;
     const DVec2 centre = near_camera ? camera : DVec2(0);
-    add(spawn_grid(field_, grid, scene_.species, centre, seed("grid", k)));
+    add(spawn_grid(field_, grid, scene_.species, centre,
+                   random_bits(scene_.header.seed, hash_text(std::string_view("grid")), k)));
   }
   return all;
 }

@@ -25,6 +25,9 @@ PlantModels build_models(const Scene& scene, Progress& progress);
 /// The plants that stand around the camera, or those that stand without regard to it.
 enum class Planting { everywhere, near_camera };
 
+/// Of the scene's k-th scatter.
+std::uint64_t scatter_seed(const Scene& scene, std::size_t k);
+
 /// Where plants of a scene stand on a field. `maps` are the terrain's; `camera` matters to plants
 /// near it only.
 class Planter {

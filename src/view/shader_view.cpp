@@ -47,7 +47,8 @@ void ShaderView::begin(const std::shared_ptr<PlantedWorld>& world, const SkySett
     scene.sky = sky;
     LandscapeOptions options;
     options.source = is_function(scene) ? LandSource::function : LandSource::map;
-    options.finished = &world->world().ground.field();
+    const Ground& ground = world->world().ground;
+    options.finished.emplace(FinishedLand{ground.field(), world->maps(), ground.dressing()});
     Landscape landscape = landscape_of(scene, options, progress);
     set_knobs(landscape.settings, defines);
     return landscape;
@@ -77,11 +78,18 @@ void ShaderView::compile() {
 
 void ShaderView::compile_next() {
   if (!next_) return;
-  next_->left = next_->drawing.compile_next(true);
+  try {
+    next_->left = next_->drawing.compile_next(true);
+  } catch (const Error&) {
+    // Knobs with which the driver fails are not kept.
+    if (drawing_) knobs_ = shown_knobs_;
+    throw;
+  }
   next_->programs = std::max(next_->programs, next_->left + 1);
   if (next_->left > 0) return;
   drawing_ = std::move(next_->drawing);
-  exposure_ = next_->knobs.exposure;
+  shown_knobs_ = next_->knobs;
+  exposure_ = shown_knobs_.exposure;
   middle_ = next_->middle;
   next_.reset();
 }

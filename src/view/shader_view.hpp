@@ -4,7 +4,7 @@
 // into a picture of its own. What was shown stays until what comes next is ready.
 //
 // The land is the shader's function of the place where all terrain steps have one, else the
-// finished land as a map. Plants are crowns over the ground; there is no water.
+// finished land as maps, with its water, its covers, and trees where the scene has them.
 
 #include <memory>
 #include <optional>
@@ -85,6 +85,7 @@ class ShaderView {
   BackgroundJob<Landscape> job_;
   Landscape landscape_;  // with the scene's knobs
   LandscapeSettings knobs_;
+  LandscapeSettings shown_knobs_;  // of drawing_
   std::optional<Next> next_;
   std::optional<FastLandscapeDrawing> drawing_;
   DVec2 middle_{0};

@@ -9,6 +9,7 @@
 
 #include "gpu/context.hpp"
 #include "realtime/landscape_picture.hpp"
+#include "realtime/packing.hpp"
 #include "scene/scene.hpp"
 
 namespace wold {
@@ -112,9 +113,10 @@ TEST(Export, AMapTravelsInPagesOnly) {
   ASSERT_TRUE(landscape.map);
   EXPECT_TRUE(has(export_shader(landscape, ShaderTarget::html), "\"data\":"));
   EXPECT_THROW(export_shader(landscape, ShaderTarget::shadertoy), Error);
-  const HeightMap& map = *landscape.map;
-  EXPECT_EQ(unpacked(packed(map), map.width, map.height), map.samples);
-  EXPECT_THROW(unpacked(packed(map), map.width, map.height + 1), Error);
+  const HeightMap& map = landscape.map->heights;
+  const std::string text = packed(map.samples, map.width);
+  EXPECT_EQ(unpacked_words(text, map.width, map.height), map.samples);
+  EXPECT_THROW(unpacked_words(text, map.width, map.height + 1), Error);
 }
 
 TEST(Export, DrawsInEs3WhatTheFilesDraw) {

@@ -61,35 +61,52 @@ CloudLight fast_clouds_met(CloudLayer layer, vec2 place, AirRay ray, vec3 direct
   return seen;
 }
 
+// Light of the clouds along a ray, with the air before them, and how much of what is behind they
+// hide; `away` is their mean distance.
+struct FastClouds {
+  vec3 light;
+  float hidden;
+  float away;
+};
+
+float cloud_start(vec2 pixel) {
+  return fract(random_of(floor(pixel)) + start_turn);
+}
+
+FastClouds fast_clouds_before(vec2 place, AirRay air, vec3 direction, float reach, Light light,
+                              float start, float time) {
+  FastClouds none = FastClouds(vec3(0.0), 0.0, sky_distance);
+#if CLOUD_STEPS > 0
+  if (CLOUD_COVERAGE <= 0.0) return none;
+  AirSpan span = span_in_layer(AIR, air.height, air.cosine, CLOUDS_HEIGHT,
+                               CLOUDS_HEIGHT + CLOUDS_THICKNESS);
+  if (!(min(span.end, reach) > span.begin) || span.begin > MAX_CLOUD_DISTANCE) return none;
+  vec3 on_ground = light.sky + max(light.direction.z, 0.0) * light.sun;
+  vec3 around = (light.sky + AIR.ground_albedo * on_ground) / 6.2832;
+  float away;
+  CloudLight clouds = fast_clouds_met(
+      landscape_clouds(), wind_place(place, time), air, direction, light,
+      min(reach, span.begin + 12.0 * CLOUDS_THICKNESS), around, start, away);
+  float near = 1.0 - smoothstep(0.6, 1.0, span.begin / MAX_CLOUD_DISTANCE);
+  float hidden = near * (1.0 - clouds.transmittance);
+  if (hidden < 0.001) return FastClouds(vec3(0.0), 0.0, away);
+  AirLight before = tabled_air_light(air, span.begin, 5);
+  return FastClouds(near * clouds.light * before.transmittance + before.light * hidden, hidden,
+                    away);
+#else
+  return none;
+#endif
+}
+
 // Clouds over a new pixel of the land's picture; distance, below 0 of what the wind moves.
 vec4 behind_fast_clouds(vec4 land, vec2 pixel, vec2 resolution, float time) {
-  vec4 plain = land.a > 0.0 ? land : vec4(land.rgb, -sky_distance);
-#if CLOUD_STEPS > 0
-  if (CLOUD_COVERAGE <= 0.0) return plain;
-  float reach = land.a > 0.0 ? land.a : 1e9;
   View view = seen_from(frame_view);
   vec3 direction = view_ray(view, pixel, resolution);
   Light light = frame_light();
   AirRay air = AirRay(view.height, direction.z, light.direction.z, dot(direction, light.direction));
-  AirSpan span = span_in_layer(AIR, air.height, air.cosine, CLOUDS_HEIGHT,
-                               CLOUDS_HEIGHT + CLOUDS_THICKNESS);
-  if (!(min(span.end, reach) > span.begin) || span.begin > MAX_CLOUD_DISTANCE) return plain;
-  vec3 on_ground = light.sky + max(light.direction.z, 0.0) * light.sun;
-  vec3 around = (light.sky + AIR.ground_albedo * on_ground) / 6.2832;
-  float start = fract(random_of(floor(pixel)) + start_turn);
-  float away;
-  CloudLight clouds = fast_clouds_met(
-      landscape_clouds(), wind_place(view.place, time), air, direction, light,
-      min(reach, span.begin + 12.0 * CLOUDS_THICKNESS), around, start, away);
-  float far = 1.0 - smoothstep(0.6, 1.0, span.begin / MAX_CLOUD_DISTANCE);
-  float hidden = far * (1.0 - clouds.transmittance);
-  if (land.a <= 0.0) plain.a = -away;
-  if (hidden < 0.001) return plain;
-  AirLight before = tabled_air_light(air, span.begin, 5);
-  vec3 seen = far * clouds.light * before.transmittance + before.light * hidden;
-  return vec4(plain.rgb * (1.0 - hidden) + min(frame_exposure() * seen, 6e4),
-              hidden > 0.5 ? -away : plain.a);
-#else
-  return plain;
-#endif
+  bool met = land.a > 0.0;
+  FastClouds clouds = fast_clouds_before(view.place, air, direction, met ? land.a : 1e9, light,
+                                         cloud_start(pixel), time);
+  vec3 seen = land.rgb * (1.0 - clouds.hidden) + min(frame_exposure() * clouds.light, 6e4);
+  return vec4(seen, met && clouds.hidden <= 0.5 ? land.a : -clouds.away);
 }

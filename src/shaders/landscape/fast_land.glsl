@@ -104,11 +104,17 @@ float fast_march(LandRay ray, float pixel_angle) {
   return t > 0.0 && t < end ? max(t, 0.1) : -1.0;
 }
 
-vec3 fast_land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angle, Light light,
+Seen fast_land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angle, Light light,
                     float time) {
   vec2 place = place_along(ray, t);
   float pixel = pixel_angle * t;
-  vec3 fine = terrain(place, max(finest_spacing(OCTAVES_NORMAL), 0.5 * pixel));
+  float finest = max(finest_spacing(OCTAVES_NORMAL), 0.5 * pixel);
+  vec2 water = vec2(0.0);
+#if HAS_WATER
+  vec3 fine = terrain(place, finest, water);
+#else
+  vec3 fine = terrain(place, finest);
+#endif
   vec3 wide = terrain(place, max(8.0, pixel));
   float hollow = terrain(place, max(90.0, 4.0 * pixel)).x;
   vec2 curve = ray.direction.xy * t / AIR.planet_radius;
@@ -125,10 +131,38 @@ vec3 fast_land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angl
   vec3 albedo = filtered_color(place, across, up, wide, fine, rise);
   Lit lit = Lit(albedo, normal, clamp(0.9 + 0.012 * rise, 0.4, 1.0), sunlit);
 #if HAS_WOODS
-  lit = with_trees(lit, place, wide, ray.direction, light.direction, pixel);
+  if (water.x < 0.5) lit = with_trees(lit, place, wide, ray.direction, light.direction, pixel);
 #endif
-  return shaded(lit.albedo, lit.normal, lit.open, lit.sunlit, light);
+  vec3 seen = shaded(lit.albedo, lit.normal, lit.open, lit.sunlit, light);
+#if HAS_WATER
+  return with_water(seen, water, place, normalize(vec3(curve, 1.0)), pixel, ray.direction, sunlit,
+                    light, time);
+#else
+  return Seen(seen, vec3(0.0), vec3(0.0));
+#endif
 }
+
+#if HAS_WATER
+// What is seen from water along a ray, all the way to the sky.
+vec3 fast_mirrored(LandRay ray, float pixel_angle, Light light, float start, float time) {
+  float t = fast_march(ray, pixel_angle);
+  bool met = t > 0.0;
+  AirRay air = AirRay(ray.height, ray.direction.z, light.direction.z,
+                      dot(ray.direction, light.direction));
+  vec3 surface;
+  if (met) {
+    vec2 across, up;
+    alone_footprint(ray.direction, pixel_angle * t, across, up);
+    surface = fast_land_seen(ray, t, across, up, pixel_angle, light, time).radiance;
+  } else {
+    surface = behind_air(air, light);
+  }
+  AirLight between = tabled_air_light(air, met ? t : 1e9, met ? 4 : 10);
+  FastClouds clouds = fast_clouds_before(ray.place, air, ray.direction, met ? t : 1e9, light, start,
+                                         time);
+  return (surface * between.transmittance + between.light) * (1.0 - clouds.hidden) + clouds.light;
+}
+#endif
 
 // Radiance times exposure, and the distance of the land or -1. Neighbours are two pixels apart.
 vec4 fast_landscape(vec2 pixel, vec2 resolution, float time) {
@@ -145,9 +179,16 @@ vec4 fast_landscape(vec2 pixel, vec2 resolution, float time) {
                       dot(ray.direction, light.direction));
   vec3 seen;
   if (met) {
-    vec3 surface = fast_land_seen(ray, t, across, up, pixel_angle, light, time);
+    Seen surface = fast_land_seen(ray, t, across, up, pixel_angle, light, time);
     AirLight between = tabled_air_light(air, t, 4);
-    seen = surface * between.transmittance + between.light;
+#if HAS_WATER
+    if (surface.mirrored.r > 0.002) {
+      LandRay away = LandRay(place_along(ray, t), height_along(ray, t) + 0.05, surface.way);
+      surface.radiance +=
+          surface.mirrored * fast_mirrored(away, pixel_angle, light, cloud_start(pixel), time);
+    }
+#endif
+    seen = surface.radiance * between.transmittance + between.light;
   } else {
     AirLight between = sky_air(air, ray.direction, light);
     seen = behind_air(air, light) * between.transmittance + between.light;

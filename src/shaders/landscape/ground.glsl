@@ -1,12 +1,10 @@
 // What lies on the land: soil and grass, stone, snow, woods seen from afar.
 #include "landscape/patches.glsl"
+#if HAS_COVERS || HAS_TREE_MAP
+#include "landscape/cover_map.glsl"
+#endif
 
-struct Surface {
-  vec3 normal;
-  vec3 albedo;
-};
-
-// The same in space.
+// As `patches`, in space.
 float lumps(vec3 place, float size, float footprint, int octaves, uint seed) {
   vec3 p = place / size;
   float width = footprint / size;
@@ -50,13 +48,35 @@ vec3 soil_color(vec2 place, float footprint, float edge) {
   return mix(soil, grass, grassy) * (1.0 + 0.2 * edge);
 }
 
+#if HAS_TREE_MAP
+float woods_on_map(vec2 place, float footprint) {
+  return TREES * map_texel(tree_map, place, footprint).r;
+}
+#endif
+
 // Share of the land under trees.
 float woods(vec2 place, float slope, float height, float footprint) {
+#if HAS_TREE_MAP
+  return woods_on_map(place, footprint);
+#else
   float n = patches(place, 520.0, footprint, 4, 31u);
   float gentle = 1.0 - smoothstep(30.0, 38.0, slope);
   float low = 1.0 - smoothstep(TREE_LINE - 120.0, TREE_LINE, height + 150.0 * n);
   return gentle * low * smoothstep(-0.06, 0.06, n + 1.7 * (TREES - 0.5)) * min(20.0 * TREES, 1.0);
+#endif
 }
+
+#if HAS_COVERS
+// Their edges are broken up by noise, and their colours vary.
+vec3 with_covers(vec3 color, vec2 place, float footprint, float edge) {
+  float broken = patches(place, 3.0 * TERRAIN_SCALE * MAP_CELL, footprint, 5, 51u);
+  vec4 cover = map_texel(cover_map, place, footprint);
+  float share = cover.a * (1.0 - cover.a) * 1.6 * broken + cover.a;
+  float grain = patches(place, 3.0, footprint, 3, 57u);
+  vec3 tone = cover.rgb * cover.rgb * (1.0 + 0.35 * broken + 0.2 * edge + 0.3 * grain);
+  return mix(color, tone, clamp(share, 0.0, 1.0));
+}
+#endif
 
 // Colour at a place (the footprint already a part of the pixel's), from the wide form of the land;
 // `rise` is how far it stands above the land around it, m.
@@ -85,6 +105,9 @@ vec3 ground_color(vec2 place, vec3 wide, vec3 fine, float footprint, float rise)
       vec3 loose = mix(ROCK_COLOR_1, ROCK_COLOR_2, 0.72 + 0.25 * edge) * vec3(1.03, 1.0, 0.95);
       color += rock * mix(stone, loose, 0.75 * scree);
     }
+#if HAS_COVERS
+    color = with_covers(color, place, footprint, edge);
+#endif
 #if HAS_WOODS
     float trees = woods(place, slope, wide.x, footprint);
     float crowns = patches(place, 9.0, footprint, 2, 32u);

@@ -1,5 +1,6 @@
 // The land from a finished height map, mirrored beyond its border, with a fractal's detail below
-// its cells: `land` as a function of the place, for scenes whose steps need the whole land.
+// its cells, and water over it: `land` as a function of the place, for scenes whose steps need the
+// whole land.
 #include "landscape/patches.glsl"
 
 uniform highp sampler2D height_map;  // m, with mipmaps; a texel per sample
@@ -49,26 +50,54 @@ vec3 map_smooth(vec2 at) {
   return sum;
 }
 
-vec3 land(vec2 place, float spacing) {
+// A place on the map, which is mirrored again and again.
+struct MapPlace {
+  vec2 at;     // texels of level 0
+  vec2 sense;  // -1 where it runs backwards
+};
+
+MapPlace on_map(vec2 place) {
   vec2 size = vec2(textureSize(height_map, 0) - 1);
-  vec2 at = place / MAP_CELL + 0.5 * size;
-  // Mirrored again and again.
-  vec2 turns = at / (2.0 * size);
+  vec2 turns = (place / MAP_CELL + 0.5 * size) / (2.0 * size);
   vec2 back = abs(fract(turns) * 2.0 - 1.0);
-  vec2 inside = (1.0 - back) * size;
-  vec2 sense = mix(vec2(-1.0), vec2(1.0), lessThan(fract(turns), vec2(0.5)));
-  float level = log2(max(spacing / MAP_CELL, 1e-3));
-  float most = floor(log2(max(size.x, size.y)));
+  return MapPlace((1.0 - back) * size, mix(vec2(-1.0), vec2(1.0), lessThan(fract(turns), vec2(0.5))));
+}
+
+// Height, derivative by texels.
+vec3 ground_on_map(vec2 at, float level) {
+  ivec2 size = textureSize(height_map, 0) - 1;
+  float most = floor(log2(float(max(size.x, size.y))));
   float fine = clamp(floor(level), 0.0, most - 1.0);
-  vec3 ground = fine == 0.0 ? map_smooth(inside) : map_level(inside, int(fine));
+  vec3 ground = fine == 0.0 ? map_smooth(at) : map_level(at, int(fine));
   float coarser = clamp(level - fine, 0.0, 1.0);
-  if (coarser > 0.0) ground = mix(ground, map_level(inside, int(fine) + 1), coarser);
-  ground.yz *= sense / MAP_CELL;
+  return coarser > 0.0 ? mix(ground, map_level(at, int(fine) + 1), coarser) : ground;
+}
+
+#if HAS_WATER
+#include "landscape/water_map.glsl"
+#endif
+
+// What is seen, ground or water; `water` is the share of the place that is under it, and its depth.
+vec3 land(vec2 place, float spacing, out vec2 water) {
+  MapPlace on = on_map(place);
+  float level = log2(max(spacing / MAP_CELL, 1e-3));
+  vec3 ground = ground_on_map(on.at, level);
+  ground.yz *= on.sense / MAP_CELL;
+  float bare = ground.x;
   if (spacing < MAP_CELL) {
     float steep = smoothstep(0.25, 0.9, length(ground.yz));
     float size_below = 2.0 * MAP_CELL;
     vec3 n = patches_slope(place, size_below, spacing, 9, 41u);
     ground += mix(0.015, 0.075, steep) * size_below * n;
   }
+  water = vec2(0.0);
+#if HAS_WATER
+  ground = under_water(ground, bare, on, level, water);
+#endif
   return ground;
+}
+
+vec3 land(vec2 place, float spacing) {
+  vec2 water;
+  return land(place, spacing, water);
 }

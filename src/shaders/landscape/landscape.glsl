@@ -1,10 +1,11 @@
 // A landscape in one pass: the ray of a pixel meets the land, then its shadow is found, then it is
 // shaded, then comes the air before it, then clouds; one after the other, so that neighbouring
-// pixels stay together in each loop.
+// pixels stay together in each loop. What water mirrors is another such ray.
 #include "landscape/terrain.glsl"
 #include "landscape/ground.glsl"
 #include "landscape/woods.glsl"
 #include "landscape/light.glsl"
+#include "landscape/water.glsl"
 #include "landscape/cloud_march.glsl"
 #include "landscape/camera.glsl"
 
@@ -30,17 +31,24 @@ vec3 shaded(vec3 albedo, vec3 normal, float open, float sunlit, Light light) {
   return albedo / 3.1416 * (sun + sky + bounce);
 }
 
-// Radiance of the land at distance t along the ray, before the air.
-vec3 land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angle, Light light,
+// The land at distance t along the ray, before the air.
+Seen land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angle, Light light,
                float time) {
   vec2 place = place_along(ray, t);
   float pixel = pixel_angle * t;
+  vec2 water = vec2(0.0);
   vec3 fine, wide, hollow;
   for (int k = ZERO; k < 3; ++k) {
     float spacing = k == 0   ? max(finest_spacing(OCTAVES_NORMAL), 0.5 * pixel)
                     : k == 1 ? max(8.0, pixel)
                              : max(90.0, 4.0 * pixel);
+#if HAS_WATER
+    vec2 wet;
+    vec3 ground = terrain(place, spacing, wet);
+    if (k == 0) water = wet;
+#else
     vec3 ground = terrain(place, spacing);
+#endif
     if (k == 0) fine = ground;
     else if (k == 1) wide = ground;
     else hollow = ground;
@@ -62,19 +70,25 @@ vec3 land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angle, Li
   vec3 albedo = filtered_color(place, across, up, wide, fine, rise);
   Lit lit = Lit(albedo, normal, clamp(0.9 + 0.012 * rise, 0.4, 1.0), sunlit);
 #if HAS_WOODS
-  lit = with_trees(lit, place, wide, ray.direction, light.direction, pixel);
+  if (water.x < 0.5) lit = with_trees(lit, place, wide, ray.direction, light.direction, pixel);
 #endif
-  return shaded(lit.albedo, lit.normal, lit.open, lit.sunlit, light);
+  vec3 seen = shaded(lit.albedo, lit.normal, lit.open, lit.sunlit, light);
+#if HAS_WATER
+  return with_water(seen, water, place, normalize(vec3(curve, 1.0)), pixel, ray.direction, sunlit,
+                    light, time);
+#else
+  return Seen(seen, vec3(0.0), vec3(0.0));
+#endif
 }
 
-// Clouds over what is behind them; nothing where the layer is not met.
-vec3 with_clouds(vec3 behind, LandRay ray, AirRay air, float reach, Light light, float start,
-                 float time) {
+// Clouds before what is at `reach`, and the air before them; nothing where the layer is not met.
+AirLight clouds_before(LandRay ray, AirRay air, float reach, Light light, float start, float time) {
+  AirLight none = AirLight(vec3(1.0), vec3(0.0));
 #if CLOUD_STEPS > 0
-  if (CLOUD_COVERAGE <= 0.0) return behind;
+  if (CLOUD_COVERAGE <= 0.0) return none;
   AirSpan span = span_in_layer(AIR, air.height, air.cosine, CLOUDS_HEIGHT,
                                CLOUDS_HEIGHT + CLOUDS_THICKNESS);
-  if (!(min(span.end, reach) > span.begin) || span.begin > MAX_CLOUD_DISTANCE) return behind;
+  if (!(min(span.end, reach) > span.begin) || span.begin > MAX_CLOUD_DISTANCE) return none;
   Light above = light_at(light.direction, CLOUDS_HEIGHT + 0.5 * CLOUDS_THICKNESS);
   vec3 on_ground = light.sky + max(light.direction.z, 0.0) * light.sun;
   vec3 around = (light.sky + AIR.ground_albedo * on_ground) / 6.2832;
@@ -82,15 +96,32 @@ vec3 with_clouds(vec3 behind, LandRay ray, AirRay air, float reach, Light light,
       landscape_clouds(), AIR, wind_place(ray.place, time), air, ray.direction, light.direction,
       min(reach, span.begin + 12.0 * CLOUDS_THICKNESS), above.sun, around, start,
       CloudSteps(CLOUD_STEPS, CLOUD_LIGHT_STEPS));
-  if (clouds.transmittance > 0.999) return behind;
+  if (clouds.transmittance > 0.999) return none;
   AirLight before = air_between(air, span.begin, max(ATMOS_STEPS / 2, 2));
-  float far = smoothstep(0.6, 1.0, span.begin / MAX_CLOUD_DISTANCE);
-  vec3 seen = behind * clouds.transmittance + clouds.light * before.transmittance +
-              before.light * (1.0 - clouds.transmittance);
-  return mix(seen, behind, far);
+  float near = 1.0 - smoothstep(0.6, 1.0, span.begin / MAX_CLOUD_DISTANCE);
+  float hidden = near * (1.0 - clouds.transmittance);
+  return AirLight(vec3(1.0 - hidden),
+                  near * clouds.light * before.transmittance + before.light * hidden);
 #else
-  return behind;
+  return none;
 #endif
+}
+
+// All that is seen along a ray that meets the land at distance t, or nothing (t < 0).
+Seen seen_along(LandRay ray, float t, vec2 across, vec2 up, float pixel_angle, Light light,
+                float start, float time) {
+  bool met = t > 0.0;
+  AirRay air = AirRay(ray.height, ray.direction.z, light.direction.z,
+                      dot(ray.direction, light.direction));
+  Seen seen = Seen(vec3(0.0), vec3(0.0), vec3(0.0));
+  if (met) seen = land_seen(ray, t, across, up, pixel_angle, light, time);
+  else seen.radiance = behind_air(air, light);
+  AirLight between = air_between(air, met ? t : 1e9, ATMOS_STEPS);
+  AirLight clouds = clouds_before(ray, air, met ? t : 1e9, light, start, time);
+  seen.radiance = (seen.radiance * between.transmittance + between.light) * clouds.transmittance +
+                  clouds.light;
+  seen.mirrored *= between.transmittance * clouds.transmittance;
+  return seen;
 }
 
 vec3 landscape_color(vec2 pixel, vec2 resolution, vec4 mouse, float time) {
@@ -101,18 +132,28 @@ vec3 landscape_color(vec2 pixel, vec2 resolution, vec4 mouse, float time) {
   Light light = light_at(sun_direction(time), view.height);
 
   float t = march_terrain(ray, pixel_angle);
-  bool met = t > 0.0;
   vec2 place = ray.direction.xy * t;
   vec2 across = dFdx(place);
   vec2 up = dFdy(place);
 
-  AirRay air = AirRay(ray.height, ray.direction.z, light.direction.z,
-                      dot(ray.direction, light.direction));
-  vec3 surface = met ? land_seen(ray, t, across, up, pixel_angle, light, time)
-                     : behind_air(air, light);
-  AirLight between = air_between(air, met ? t : 1e9, ATMOS_STEPS);
-  vec3 seen = surface * between.transmittance + between.light;
-  seen = with_clouds(seen, ray, air, met ? t : 1e9, light, random_of(pixel), time);
+  float start = random_of(pixel);
+#if HAS_WATER
+  vec3 seen = vec3(0.0);
+  vec3 share = vec3(1.0);
+  for (int k = ZERO; k < 2; ++k) {
+    if (k > 0) {
+      t = march_terrain(ray, pixel_angle);
+      alone_footprint(ray.direction, pixel_angle * t, across, up);
+    }
+    Seen part = seen_along(ray, t, across, up, pixel_angle, light, start, time);
+    seen += share * part.radiance;
+    share *= part.mirrored;
+    if (max(share.r, max(share.g, share.b)) < 0.002) break;
+    ray = LandRay(place_along(ray, t), height_along(ray, t) + 0.05, part.way);
+  }
+#else
+  vec3 seen = seen_along(ray, t, across, up, pixel_angle, light, start, time).radiance;
+#endif
   vec3 shown = 1.0 - exp(-exposure_for(light) * max(seen, 0.0));
   return srgb_encoded(shown) + (pixel_noise(pixel + 17.0) - 0.5) / 255.0;
 }

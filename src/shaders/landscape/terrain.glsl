@@ -6,6 +6,15 @@ float finest_spacing(int octaves) {
   return TERRAIN_SCALE * LARGEST_FEATURE * exp2(-float(octaves) - 1.0);
 }
 
+#if HAS_WATER
+// With the share of the place under water, and its depth (m).
+vec3 terrain(vec2 place, float spacing, out vec2 water) {
+  vec3 ground = land(place / TERRAIN_SCALE, spacing / TERRAIN_SCALE, water);
+  water.y *= TERRAIN_HEIGHT;
+  return vec3(TERRAIN_HEIGHT * ground.x, TERRAIN_HEIGHT / TERRAIN_SCALE * ground.yz);
+}
+#endif
+
 // Height (m) over a place, with its derivative.
 vec3 terrain(vec2 place, float spacing) {
   vec3 ground = land(place / TERRAIN_SCALE, spacing / TERRAIN_SCALE);

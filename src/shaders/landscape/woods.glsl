@@ -4,12 +4,13 @@
 
 const float TREE_SPACING = 7.0;  // m
 const float TREE_TOP = 19.0;     // m, none is higher
-const int CROWN_STEPS = 18;
+const int CROWN_STEPS = 36;
 
 struct Crown {
   float height;  // over the ground, m; 0 between trees
   vec2 slope;
-  float tone;  // of its colour, 0 to 1
+  float tone;    // of its colour, 0 to 1
+  float gap;     // to the next crown's edge, m; no more than is sure
 };
 
 // The crown over a place, where this share of the ground is under trees.
@@ -18,25 +19,30 @@ Crown crown_over(vec2 place, float share) {
   vec2 below = floor(p);
   vec2 t = p - below;
   ivec2 cell = ivec2(below);
-  Crown best = Crown(0.0, vec2(0.0), 0.0);
+  Crown best = Crown(0.0, vec2(0.0), 0.0, 0.4 * TREE_SPACING);
   for (int k = ZERO; k < 9; ++k) {
     ivec2 step = ivec2(k % 3, k / 3) - 1;
     uint h = lattice_hash(uint(cell.x + step.x), lattice_line(uint(cell.y + step.y), 71u));
     vec3 r = vec3(uvec3(h, h >> 10u, h >> 20u) & 1023u) / 1024.0;
     float other = float((h * 747796405u) >> 8u) / 16777216.0;
+    vec2 foot = vec2(step) + 0.15 + 0.7 * r.xy;
+#if HAS_TREE_MAP
+    share = woods_on_map(TREE_SPACING * (below + foot), TREE_SPACING);
+#endif
     if (other >= 1.15 * share) continue;
-    vec2 away = TREE_SPACING * (t - vec2(step) - 0.15 - 0.7 * r.xy);
-    float radius = TREE_SPACING * (0.42 + 0.3 * r.z);
-    float d = length(away) / radius;
-    if (d >= 1.0) continue;
-    float top = TREE_TOP * (0.55 + 0.45 * r.z * (0.4 + 0.6 * share));
+    vec2 away = TREE_SPACING * (t - foot);
     bool pointed = fract(13.0 * other) < 0.5;
+    float radius = TREE_SPACING * (pointed ? 0.3 + 0.18 * r.z : 0.42 + 0.3 * r.z);
+    float d = length(away) / radius;
+    best.gap = min(best.gap, max(radius * (d - 1.0), 0.0));
+    if (d >= 1.0) continue;
+    float top = TREE_TOP * (0.55 + 0.45 * r.z * (0.4 + 0.6 * min(share, 1.0)));
     float round_off = sqrt(1.0 - d * d);
     float height = pointed ? top * (1.0 - 0.85 * d) : top * (0.3 + 0.45 * round_off);
     if (height <= best.height) continue;
     float fall = pointed ? 0.85 * top : min(0.45 * top * d / max(round_off, 0.2), 2.0 * top);
     best = Crown(height, -fall / radius * away / max(length(away), 1e-3),
-                 clamp((pointed ? 0.0 : 0.4) + 0.6 * fract(41.0 * other), 0.0, 1.0));
+                 clamp((pointed ? 0.0 : 0.4) + 0.6 * fract(41.0 * other), 0.0, 1.0), best.gap);
   }
   return best;
 }
@@ -60,16 +66,17 @@ Lit with_trees(Lit ground, vec2 place, vec3 wide, vec3 direction, vec3 sun, floa
   float before = woods(place - length_inside * direction.xy, slope, wide.x, pixel);
   if (near <= 0.0 || max(share, before) <= 0.0) return ground;
 
-  Crown crown = Crown(0.0, vec2(0.0), 0.0);
-  float over = 0.0;
+  Crown crown = Crown(0.0, vec2(0.0), 0.0, 0.0);
   vec2 at = place;
-  // Steps until a crown is met, then halvings of the last.
+  // Down from the height of the tallest: from crown to crown, within one's circle by a share of the
+  // height over it; the step that meets it is halved.
   float left = 1.0;
-  float stride = 1.0 / float(CROWN_STEPS);
+  float along = length_inside * max(length(direction.xy), 1e-3);
+  float stride = 0.0;
   int halvings = 0;
-  for (int k = ZERO; k < CROWN_STEPS + 6 && left > -0.001 && halvings < 5; ++k) {
+  for (int k = ZERO; k < CROWN_STEPS && left > -0.001 && halvings < 5; ++k) {
     at = place - left * length_inside * direction.xy;
-    over = left * TREE_TOP;
+    float over = left * TREE_TOP;
     Crown met = crown_over(at, mix(share, before, left));
     bool inside = met.height > 0.0 && met.height >= over;
     if (inside) crown = met;
@@ -78,7 +85,9 @@ Lit with_trees(Lit ground, vec2 place, vec3 wide, vec3 direction, vec3 sun, floa
       stride *= 0.5;
       left += inside ? stride : -stride;
     } else {
-      left -= stride;
+      float within = max(0.5 * (over - met.height) / TREE_TOP, 0.5 / along);
+      stride = met.gap > 0.0 ? max(met.gap, 0.1) / along : within;
+      left -= min(stride, max(left, 0.02));
     }
   }
   if (crown.height <= 0.0) {
