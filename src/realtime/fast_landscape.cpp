@@ -21,7 +21,7 @@ namespace wold {
 namespace {
 
 constexpr int view_texels = 7;
-constexpr int first_map_unit = 15;  // those before are the passes'
+constexpr int first_map_unit = 15;        // those before are the passes'
 constexpr float most_samples_still = 32;  // that a pixel is the mean of
 constexpr float most_samples = 4;
 

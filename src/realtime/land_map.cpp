@@ -103,10 +103,13 @@ std::vector<std::uint8_t> cover_map(const Samples& samples, const std::vector<Co
   return planes;
 }
 
-std::vector<std::uint8_t> tree_map(const Samples& samples, const Grid<float>& density) {
+std::vector<std::uint8_t> tree_map(const Samples& samples, const Grid<float>& density,
+                                   const std::optional<HeightMap>& water) {
   const Heightfield trees{density, samples.field.origin, samples.field.cell};
   std::vector<std::uint8_t> shares(samples.count());
+  const auto width = static_cast<std::size_t>(samples.width);
   samples.each([&](std::size_t k, DVec2 place) {
+    if (water && water->at(static_cast<int>(k % width), static_cast<int>(k / width)) > 0) return;
     shares[k] = byte_of(height_at(trees, place) / full_woods);
   });
   return shares;
@@ -122,7 +125,7 @@ LandMap land_map(const Heightfield& field, const GroundDressing& dressing, const
     map.water = water_map(samples, map.heights, dressing.inner_water.levels());
   if (map.water && map.water->heights.high <= 0) map.water.reset();
   if (!dressing.covers.empty()) map.covers = cover_map(samples, dressing.covers);
-  if (!trees.empty()) map.trees = tree_map(samples, trees);
+  if (!trees.empty()) map.trees = tree_map(samples, trees, map.water);
   return map;
 }
 

@@ -74,7 +74,8 @@ GpuTexture water_texture(const LandMap& map) {
                               level);
              });
   const auto level = [&](int i, int j) { return map.water_level(i, j); };
-  texture.upload(std::span<const float>(interleaved(samples(heights, level), samples(heights, wet))));
+  texture.upload(
+      std::span<const float>(interleaved(samples(heights, level), samples(heights, wet))));
   return texture;
 }
 
@@ -98,8 +99,7 @@ GpuTexture byte_texture(const std::vector<std::uint8_t>& planes, int count, Pixe
 
 LandTextures::LandTextures(const LandMap& map) : heights_(height_texture(map.heights)) {
   if (map.water) water_ = water_texture(map);
-  if (!map.covers.empty())
-    covers_ = byte_texture(map.covers, 4, PixelFormat::rgba8, map.heights);
+  if (!map.covers.empty()) covers_ = byte_texture(map.covers, 4, PixelFormat::rgba8, map.heights);
   if (!map.trees.empty()) trees_ = byte_texture(map.trees, 1, PixelFormat::r8, map.heights);
 }
 

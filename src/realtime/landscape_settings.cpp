@@ -91,7 +91,8 @@ Description<LandscapeSettings> describe(const LandscapeSettings&) {
       .add("TERRAIN_HEIGHT", &S::terrain_height, {.min = 0, .max = 10}, "Factor on heights.")
       .add("TERRAIN_SCALE", &S::terrain_scale, {.min = 0.1, .max = 10}, "Factor on widths.")
       .add("SMOOTH_RIDGES", &S::smooth_ridges, "Rounds the crests as the scene has them.")
-      .add("TREES", &S::trees, {.min = 0, .max = 1}, "Share of gentle slopes under trees.")
+      .add("TREES", &S::trees, {.min = 0, .max = 1},
+           "Share of gentle slopes under trees; of land that is a map: of the scene's trees.")
       .add("CLOUD_COVERAGE", &S::cloud_coverage, {.min = 0, .max = 1},
            "Share of the sky under clouds.")
       .add("CLOUDS_HEIGHT", &S::clouds_height, {.unit = "m", .min = 0, .max = 20000},

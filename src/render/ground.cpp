@@ -113,11 +113,11 @@ bool Ground::inside_field(DVec2 place) const {
   return surroundings_.height.empty() || field_.contains(place);
 }
 
-float Ground::lift(DVec2 place) const {
-  const DVec2 low = field_.origin;
-  const DVec2 high = low + field_.size();
+float border_lift(const Heightfield& field, const Heightfield& surroundings, DVec2 place) {
+  const DVec2 low = field.origin;
+  const DVec2 high = low + field.size();
   const DVec2 border = glm::clamp(place, low, high);
-  const float step = ground_at(field_, border).height - ground_at(surroundings_, border).height;
+  const float step = ground_at(field, border).height - ground_at(surroundings, border).height;
   const auto distance = static_cast<float>(glm::distance(border, place));
   const auto width = static_cast<float>(0.5 * std::max(high.x - low.x, high.y - low.y));
   return step * (1 - smoothstep(0, width, distance));

@@ -59,6 +59,10 @@ struct GroundDressing {
   WaterLayer outer_water = {};  ///< over the surroundings
 };
 
+/// What the surroundings' ground rises by at a place outside the field, m: as much as field and
+/// surroundings differ at the nearest place of the border, less the further away.
+float border_lift(const Heightfield& field, const Heightfield& surroundings, DVec2 place);
+
 class Ground {
  public:
   /// `surroundings` may be empty.
@@ -117,7 +121,7 @@ class Ground {
   bool inside_field(DVec2 place) const;
   /// What the surroundings are raised by at a place, m: the difference at the nearest point of the
   /// field's border, fading with distance.
-  float lift(DVec2 place) const;
+  float lift(DVec2 place) const { return border_lift(field_, surroundings_, place); }
   /// Share of tree crowns seen from afar: none inside the field, where plants stand themselves.
   float canopy_share(DVec2 place, float slope) const;
   GroundSample with_detail(GroundSample base, DVec2 place, float spacing) const;

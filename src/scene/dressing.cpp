@@ -37,6 +37,45 @@ WaterLayer water_of(const Scene& scene, const TerrainResult& ground, const Grid<
   return depth.empty() ? WaterLayer() : WaterLayer(ground.field, depth, scene.water.least_depth);
 }
 
+/// The surroundings are bent to meet the terrain: still water there would stand aslant, and is left
+/// out with its shores. Rivers follow the ground.
+Grid<float> without_slanting(Grid<float> depth, const Heightfield& bed, const Heightfield& inner) {
+  constexpr float least_tilt = 0.01F;
+  constexpr int shore = 2;  // samples
+  const Grid<float> before = depth;
+  const float across = 1 / static_cast<float>(2 * bed.cell);
+  const auto place = [&](int i, int j) { return bed.origin + bed.cell * DVec2(i, j); };
+  const auto lift = [&](int i, int j) { return border_lift(inner, bed, place(i, j)); };
+  const auto level = [&](int i, int j) { return bed.height.clamped(i, j) + before.clamped(i, j); };
+  // To dry ground water does not fall.
+  const auto step = [&](int i, int j, int di, int dj) {
+    return before.clamped(i + di, j + dj) > 0 ? level(i + di, j + dj) - level(i, j) : 0.0F;
+  };
+  Grid<float> tilts(depth.width(), depth.height(), 0.0F);
+  Grid<std::uint8_t> slanting(depth.width(), depth.height(), std::uint8_t{0});
+  parallel_for(0, depth.height(), [&](int j) {
+    for (int i = 0; i < depth.width(); ++i) {
+      if (before(i, j) <= 0 || inner.contains(place(i, j))) continue;
+      tilts(i, j) = glm::length(
+          across * Vec2(lift(i + 1, j) - lift(i - 1, j), lift(i, j + 1) - lift(i, j - 1)));
+      const Vec2 fall =
+          across * Vec2(step(i, j, 1, 0) - step(i, j, -1, 0), step(i, j, 0, 1) - step(i, j, 0, -1));
+      const bool still = glm::length(fall) < 0.3F * tilts(i, j);
+      slanting(i, j) = tilts(i, j) > least_tilt && still ? 1 : 0;
+    }
+  });
+  parallel_for(0, depth.height(), [&](int j) {
+    for (int i = 0; i < depth.width(); ++i) {
+      if (tilts(i, j) <= least_tilt) continue;
+      for (int dj = -shore; dj <= shore; ++dj)
+        for (int di = -shore; di <= shore; ++di)
+          if (slanting.clamped(i + di, j + dj) != 0) depth(i, j) = 0;
+    }
+  });
+  return depth;
+}
+
+/// Share of trees among the plants of a scatter.
 double tree_share(const Scene& scene, const ScatterSettings& scatter) {
   const std::vector<double> shares = species_shares(scatter.species, scene.species, "scatter");
   double trees = 0;
@@ -50,13 +89,21 @@ double tree_share(const Scene& scene, const ScatterSettings& scatter) {
 GroundDressing dress_ground(const Scene& scene, const TerrainResult& terrain,
                             const TerrainResult& around, Progress& progress) {
   GroundDressing dressing;
-  dressing.covers = covers_of(scene, terrain, around, progress);
-  dressing.water = scene.water;
   const std::string& map = scene.water.depth.path;
+  const auto found = around.maps.find(map);
+  TerrainResult dry_around;
+  if (found != around.maps.end()) {
+    dry_around = around;
+    dry_around.maps[map] = without_slanting(found->second, around.field, terrain.field);
+    dressing.outer_water = water_of(scene, around, dry_around.maps[map]);
+  }
+  // Nor is there the gravel of water that is left out.
+  dressing.covers =
+      covers_of(scene, terrain, dressing.outer_water.empty() ? around : dry_around, progress);
+  dressing.water = scene.water;
   dressing.inner_water = water_of(
       scene, terrain,
       scene_map(scene, map, terrain.field, terrain.maps, place_of(terrain), progress).height);
-  if (around.maps.contains(map)) dressing.outer_water = water_of(scene, around, around.maps.at(map));
   return dressing;
 }
 

@@ -51,10 +51,9 @@ TerrainResult build_surroundings(const Scene& scene, Progress& progress) {
 /// Without trees in the scene there are none in the distance.
 GroundMaterial ground_material(const Scene& scene) {
   GroundMaterial material = scene.ground;
-  const bool trees =
-      std::any_of(scene.scatter.begin(), scene.scatter.end(), [&](const ScatterSettings& s) {
-        return s.where.within <= 0 && plants_trees(scene, s);
-      });
+  const bool trees = std::any_of(
+      scene.scatter.begin(), scene.scatter.end(),
+      [&](const ScatterSettings& s) { return s.where.within <= 0 && plants_trees(scene, s); });
   if (!trees) material.distant_forest = 0;
   return material;
 }

@@ -352,6 +352,47 @@ class Page(unittest.TestCase):
         self.assertGreater(likeness, LEAST_PSNR_MAP)
         self.assertEqual(self.browser.complaints(), [])
 
+    def test_land_with_water_covers_and_trees(self):
+        scene = self.folder / "wet.toml"
+        scene.write_text("""
+            seed = 4
+            [terrain]
+            size = 3000
+            resolution = 129
+            [[terrain.step]]
+            op = "fbm"
+            height = 260
+            feature_size = 1400
+            [[terrain.step]]
+            name = "flood"
+            op = "pipes"
+            rain = 300
+            duration = 2
+            [water]
+            depth = "flood.water"
+            least_depth = 0.3
+            [[cover]]
+            map = "flood.water"
+            range = [0.1, 1000]
+            feather = 0.1
+            [[species]]
+            name = "oak"
+            plant = "plants/oak.lsys"
+            height = [9, 14]
+            [[scatter]]
+            density = 0.01
+            clumping = 0.8
+            clump_size = 200
+        """)
+        page, drawn = self.export(scene)
+        for part in ("water", "covers", "trees"):
+            self.assertIn('"%s":' % part, page.read_text())
+        self.show(page)
+        likeness = psnr(self.browser.picture(), drawn)
+        print(f"water, covers, trees: {likeness:.1f} dB")
+        self.assertGreater(likeness, LEAST_PSNR_MAP)
+        self.assertEqual(self.browser.complaints(), [])
+
 
 if __name__ == "__main__":
     os.environ.pop("DISPLAY", None)

@@ -129,12 +129,18 @@ Seen fast_land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angl
   up *= min(1.0, longest / max(length(up), 1e-6));
   float rise = fine.x - hollow;
   vec3 albedo = filtered_color(place, across, up, wide, fine, rise);
-  Lit lit = Lit(albedo, normal, clamp(0.9 + 0.012 * rise, 0.4, 1.0), sunlit);
+  Lit lit = Lit(albedo, normal, clamp(0.9 + 0.012 * rise, 0.4, 1.0), sunlit, 0.0);
 #if HAS_WOODS
-  if (water.x < 0.5) lit = with_trees(lit, place, wide, ray.direction, light.direction, pixel);
+  float bend = 0.0;
+  if (pixel < TREES_UP_TO) {
+    vec2 offset = -way_through_trees(wide, ray.direction) * ray.direction.xy;
+    bend = ring_height(place + offset, max(8.0, pixel)) - wide.x - dot(wide.yz, offset);
+  }
+  lit = with_trees(lit, place, wide, bend, ray.direction, light.direction, pixel);
 #endif
   vec3 seen = shaded(lit.albedo, lit.normal, lit.open, lit.sunlit, light);
 #if HAS_WATER
+  water.x *= 1.0 - lit.crown;
   return with_water(seen, water, place, normalize(vec3(curve, 1.0)), pixel, ray.direction, sunlit,
                     light, time);
 #else
@@ -143,9 +149,10 @@ Seen fast_land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angl
 }
 
 #if HAS_WATER
-// What is seen from water along a ray, all the way to the sky.
+// What is seen from water along a ray, all the way to the sky. Such rays begin within what is added
+// to the baked land: they are marched over the exact one.
 vec3 fast_mirrored(LandRay ray, float pixel_angle, Light light, float start, float time) {
-  float t = fast_march(ray, pixel_angle);
+  float t = march_terrain(ray, pixel_angle);
   bool met = t > 0.0;
   AirRay air = AirRay(ray.height, ray.direction.z, light.direction.z,
                       dot(ray.direction, light.direction));

@@ -72,8 +72,8 @@ vec3 with_covers(vec3 color, vec2 place, float footprint, float edge) {
   float broken = patches(place, 3.0 * TERRAIN_SCALE * MAP_CELL, footprint, 5, 51u);
   vec4 cover = map_texel(cover_map, place, footprint);
   float share = cover.a * (1.0 - cover.a) * 1.6 * broken + cover.a;
-  float grain = patches(place, 3.0, footprint, 3, 57u);
-  vec3 tone = cover.rgb * cover.rgb * (1.0 + 0.35 * broken + 0.2 * edge + 0.3 * grain);
+  float grain = patches(place, 4.0, footprint, 3, 57u);
+  vec3 tone = cover.rgb * cover.rgb * (1.0 + 0.2 * broken + 0.2 * edge + 0.55 * grain);
   return mix(color, tone, clamp(share, 0.0, 1.0));
 }
 #endif

@@ -38,20 +38,25 @@ Seen land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angle, Li
   float pixel = pixel_angle * t;
   vec2 water = vec2(0.0);
   vec3 fine, wide, hollow;
-  for (int k = ZERO; k < 3; ++k) {
+  float bend = 0.0;
+  int looks = HAS_WOODS > 0 && pixel < TREES_UP_TO ? 4 : 3;
+  for (int k = ZERO; k < looks; ++k) {
     float spacing = k == 0   ? max(finest_spacing(OCTAVES_NORMAL), 0.5 * pixel)
-                    : k == 1 ? max(8.0, pixel)
-                             : max(90.0, 4.0 * pixel);
+                    : k == 2 ? max(90.0, 4.0 * pixel)
+                             : max(8.0, pixel);
+    vec2 offset = vec2(0.0);
+    if (k == 3) offset = -way_through_trees(wide, ray.direction) * ray.direction.xy;
 #if HAS_WATER
     vec2 wet;
-    vec3 ground = terrain(place, spacing, wet);
+    vec3 ground = terrain(place + offset, spacing, wet);
     if (k == 0) water = wet;
 #else
-    vec3 ground = terrain(place, spacing);
+    vec3 ground = terrain(place + offset, spacing);
 #endif
     if (k == 0) fine = ground;
     else if (k == 1) wide = ground;
-    else hollow = ground;
+    else if (k == 2) hollow = ground;
+    else bend = ground.x - wide.x - dot(wide.yz, offset);
   }
   vec2 curve = ray.direction.xy * t / AIR.planet_radius;
   vec3 normal = normalize(vec3(curve - fine.yz, 1.0));
@@ -68,12 +73,13 @@ Seen land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angle, Li
   up *= min(1.0, longest / max(length(up), 1e-6));
   float rise = fine.x - hollow.x;
   vec3 albedo = filtered_color(place, across, up, wide, fine, rise);
-  Lit lit = Lit(albedo, normal, clamp(0.9 + 0.012 * rise, 0.4, 1.0), sunlit);
+  Lit lit = Lit(albedo, normal, clamp(0.9 + 0.012 * rise, 0.4, 1.0), sunlit, 0.0);
 #if HAS_WOODS
-  if (water.x < 0.5) lit = with_trees(lit, place, wide, ray.direction, light.direction, pixel);
+  lit = with_trees(lit, place, wide, bend, ray.direction, light.direction, pixel);
 #endif
   vec3 seen = shaded(lit.albedo, lit.normal, lit.open, lit.sunlit, light);
 #if HAS_WATER
+  water.x *= 1.0 - lit.crown;
   return with_water(seen, water, place, normalize(vec3(curve, 1.0)), pixel, ray.direction, sunlit,
                     light, time);
 #else

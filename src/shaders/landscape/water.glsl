@@ -10,8 +10,10 @@ struct Seen {
 #if HAS_WATER
 const float WAVE_SIZE = 1.2;  // m
 
-// The slope of waves that drift both ways.
+// The slope of waves that drift both ways. The largest are left in even where a pixel covers many
+// of them: it shows one at random, whose mean over pixels and pictures is what all of them mirror.
 vec2 wave_slope(vec2 place, float pixel, float time) {
+  pixel = min(pixel, 0.3 * WAVE_SIZE);
   vec2 slope = WAVE_SIZE * patches_slope(place + 0.35 * time, WAVE_SIZE, pixel, 4, 61u).yz;
   slope += 1.6 * WAVE_SIZE *
            patches_slope(place - vec2(0.5, 0.2) * time, 1.6 * WAVE_SIZE, pixel, 3, 65u).yz;
