@@ -8,6 +8,7 @@
 
 #include "realtime/land_function.hpp"
 #include "realtime/light_tables.hpp"
+#include "realtime/wood_kinds.hpp"
 #include "scene/build.hpp"
 #include "scene/dressing.hpp"
 
@@ -183,6 +184,24 @@ std::string air_text(const Atmosphere& a) {
                      num(a.planet_radius), num(a.air_thickness), vec3_text(a.ground_albedo));
 }
 
+std::string kind_text(const CrownKind& kind) {
+  // Crowns reach no further than into the next cell of the shader's trees.
+  constexpr float widest = 5;
+  const float slenderness = std::min(kind.slenderness, widest / kind.height.high);
+  return vec3_text({kind.height.low, kind.height.high, slenderness});
+}
+
+void add_trees(const WoodKinds& kinds, Landscape& out) {
+  out.values.push_back(
+      {"CONIFERS", num(kinds.pointed.share), "share of trees with pointed crowns"});
+  out.values.push_back(
+      {"CONIFER_SIZE", kind_text(kinds.pointed), "height from, to (m); crown's radius over it"});
+  out.values.push_back({"BROADLEAF_SIZE", kind_text(kinds.round)});
+  const float highest = std::max(kinds.pointed.share > 0 ? kinds.pointed.height.high : 0.0F,
+                                 kinds.round.share > 0 ? kinds.round.height.high : 0.0F);
+  out.values.push_back({"TREE_TOP", num(highest), "m, none is higher"});
+}
+
 void set_values(const Scene& scene, const Relief& relief, float largest_feature, Landscape& out) {
   const GroundMaterial& g = scene.ground;
   const float margin = 0.06F * (relief.all.high - relief.all.low) + 20;
@@ -288,6 +307,7 @@ Landscape landscape_of(const Scene& scene, const LandscapeOptions& options, Prog
   out.settings.exposure = rounded(exposure_of(dressed, relief, out.settings.trees > 0), 0.05F);
   set_camera(scene, options.camera, relief, out);
   set_values(dressed, relief, largest, out);
+  if (has_trees(scene)) add_trees(wood_kinds(scene, progress), out);
   out.tables = fmt::format("const Atmosphere AIR = {};\n{}", air_text(shader_air(scene.sky)),
                            light_tables(scene.sky));
   return out;

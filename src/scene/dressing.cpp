@@ -80,7 +80,7 @@ double tree_share(const Scene& scene, const ScatterSettings& scatter) {
   const std::vector<double> shares = species_shares(scatter.species, scene.species, "scatter");
   double trees = 0;
   for (std::size_t k = 0; k < shares.size(); ++k)
-    if (scene.species[k].height.high >= least_tree) trees += shares[k];
+    if (is_tree(scene.species[k])) trees += shares[k];
   return trees;
 }
 
@@ -105,6 +105,10 @@ GroundDressing dress_ground(const Scene& scene, const TerrainResult& terrain,
       scene, terrain,
       scene_map(scene, map, terrain.field, terrain.maps, place_of(terrain), progress).height);
   return dressing;
+}
+
+bool is_tree(const SpeciesSettings& species) {
+  return species.height.high >= least_tree;
 }
 
 bool plants_trees(const Scene& scene, const ScatterSettings& scatter) {

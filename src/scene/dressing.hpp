@@ -14,6 +14,8 @@ namespace wold {
 GroundDressing dress_ground(const Scene& scene, const TerrainResult& terrain,
                             const TerrainResult& around, Progress& progress);
 
+/// Whether a kind grows as high as a tree.
+bool is_tree(const SpeciesSettings& species);
 /// Whether there are trees in a scatter of the scene.
 bool plants_trees(const Scene& scene, const ScatterSettings& scatter);
 

@@ -38,14 +38,19 @@ Seen land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angle, Li
   float pixel = pixel_angle * t;
   vec2 water = vec2(0.0);
   vec3 fine, wide, hollow;
+  int looks = 3;
+#if HAS_WOODS
   float bend = 0.0;
-  int looks = HAS_WOODS > 0 && pixel < TREES_UP_TO ? 4 : 3;
+  if (pixel < TREES_UP_TO) looks = 4;
+#endif
   for (int k = ZERO; k < looks; ++k) {
     float spacing = k == 0   ? max(finest_spacing(OCTAVES_NORMAL), 0.5 * pixel)
                     : k == 2 ? max(90.0, 4.0 * pixel)
                              : max(8.0, pixel);
     vec2 offset = vec2(0.0);
+#if HAS_WOODS
     if (k == 3) offset = -way_through_trees(wide, ray.direction) * ray.direction.xy;
+#endif
 #if HAS_WATER
     vec2 wet;
     vec3 ground = terrain(place + offset, spacing, wet);
@@ -56,7 +61,9 @@ Seen land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angle, Li
     if (k == 0) fine = ground;
     else if (k == 1) wide = ground;
     else if (k == 2) hollow = ground;
+#if HAS_WOODS
     else bend = ground.x - wide.x - dot(wide.yz, offset);
+#endif
   }
   vec2 curve = ray.direction.xy * t / AIR.planet_radius;
   vec3 normal = normalize(vec3(curve - fine.yz, 1.0));

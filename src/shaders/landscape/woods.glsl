@@ -2,8 +2,17 @@
 // and shade each other. Seen from so far that a crown is less than a pixel, only their mean is left.
 #include "landscape/ground.glsl"
 
+// What is lit at a place: colour, normal, and the shares of sky and sun that it sees.
+struct Lit {
+  vec3 albedo;
+  vec3 normal;
+  float open;
+  float sunlit;
+  float crown;  // share of it that is a tree's crown
+};
+
+#if HAS_WOODS
 const float TREE_SPACING = 7.0;  // m
-const float TREE_TOP = 19.0;     // m, none is higher
 const int CROWN_STEPS = 64;
 
 struct Crown {
@@ -13,11 +22,6 @@ struct Crown {
   float steep;   // the steepest of those over the place
   float gap;     // until the next may begin, m
 };
-
-// How high trees are where this share of the ground is under them, m.
-float highest_crown(float share) {
-  return TREE_TOP * (0.55 + 0.45 * (0.4 + 0.6 * min(share, 1.0)));
-}
 
 // The crown over a place, where this share of the ground is under trees, and how far it is to the
 // next along a way (unit).
@@ -41,8 +45,10 @@ Crown crown_over(vec2 place, float share, vec2 way) {
 #endif
     if (other >= 1.15 * share) continue;
     vec2 away = TREE_SPACING * (t - foot);
-    bool pointed = fract(13.0 * other) < 0.5;
-    float radius = TREE_SPACING * (pointed ? 0.3 + 0.18 * r.z : 0.42 + 0.3 * r.z);
+    bool pointed = float((h * 2891336453u) >> 8u) / 16777216.0 < CONIFERS;
+    vec3 size = pointed ? CONIFER_SIZE : BROADLEAF_SIZE;
+    float top = mix(size.x, size.y, r.z);
+    float radius = size.z * top;
     float d = length(away) / radius;
     if (d >= 1.0) {
       float ahead = -dot(away, way);
@@ -50,10 +56,9 @@ Crown crown_over(vec2 place, float share, vec2 way) {
       if (ahead > 0.0 && deep > 0.0) best.gap = min(best.gap, ahead - sqrt(deep));
       continue;
     }
-    float top = TREE_TOP * (0.55 + 0.45 * r.z * (0.4 + 0.6 * min(share, 1.0)));
     float round_off = sqrt(1.0 - d * d);
-    float height = pointed ? top * (1.0 - 0.92 * d) : top * (0.12 + 0.63 * round_off);
-    float fall = pointed ? 0.92 * top : min(0.63 * top * d / max(round_off, 0.2), 2.5 * top);
+    float height = pointed ? top * (1.0 - 0.92 * d) : top * (0.15 + 0.85 * round_off);
+    float fall = pointed ? 0.92 * top : min(0.85 * top * d / max(round_off, 0.2), 3.0 * top);
     best.steep = max(best.steep, fall / radius);
     if (height <= best.height) continue;
     best.height = height;
@@ -62,15 +67,6 @@ Crown crown_over(vec2 place, float share, vec2 way) {
   }
   return best;
 }
-
-// What is lit at a place: colour, normal, and the shares of sky and sun that it sees.
-struct Lit {
-  vec3 albedo;
-  vec3 normal;
-  float open;
-  float sunlit;
-  float crown;  // share of it that is a tree's crown
-};
 
 // Share of the sun that comes through the crowns around, to a height over the ground.
 float sun_through_crowns(vec2 place, float height, vec3 wide, vec3 sun, float share) {
@@ -117,7 +113,7 @@ Lit with_trees(Lit ground, vec2 place, vec3 wide, float bend, vec3 direction, ve
   vec2 at = place;
   // Down from the height of the tallest: from crown to crown, over one as far as its slope allows;
   // the step that meets it is halved.
-  float left = highest_crown(max(share, before)) / TREE_TOP;
+  float left = 1.0;
   float along = length_inside * across;
   float stride = 0.0;
   int halvings = 0;
@@ -157,3 +153,4 @@ Lit with_trees(Lit ground, vec2 place, vec3 wide, float bend, vec3 direction, ve
   return Lit(mix(ground.albedo, color, near), normalize(mix(ground.normal, normal, near)),
              ground.open * mix(1.0, open, near), ground.sunlit * mix(1.0, lit, near), near);
 }
+#endif
