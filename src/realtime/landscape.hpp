@@ -53,8 +53,8 @@ struct LandscapeOptions {
 /// Whether all steps that change the ground are functions of the place.
 bool is_function(const Scene& scene);
 
-/// Throws as `build_terrain`, where the land is a map or something stands in for steps, and
-/// Error(usage) for an unknown camera.
+/// Throws as `build_terrain` and `dress_ground`, where the land is a map or something stands in for
+/// steps, as `wood_kinds`, and Error(usage) for an unknown camera.
 Landscape landscape_of(const Scene& scene, const LandscapeOptions& options, Progress& progress);
 
 /// GLSL: knobs, values, land and `mainImage(out vec4, in vec2)`, with #include. `uniforms` are

@@ -119,8 +119,6 @@ class Ground {
     float canopy = 0;
   };
   bool inside_field(DVec2 place) const;
-  /// What the surroundings are raised by at a place, m: the difference at the nearest point of the
-  /// field's border, fading with distance.
   float lift(DVec2 place) const { return border_lift(field_, surroundings_, place); }
   /// Share of tree crowns seen from afar: none inside the field, where plants stand themselves.
   float canopy_share(DVec2 place, float slope) const;
