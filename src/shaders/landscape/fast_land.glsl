@@ -138,14 +138,7 @@ Seen fast_land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angl
   }
   lit = with_trees(lit, place, wide, bend, ray.direction, light.direction, pixel);
 #endif
-  vec3 seen = shaded(lit.albedo, lit.normal, lit.open, lit.sunlit, light);
-#if HAS_WATER
-  water.x *= 1.0 - lit.crown;
-  return with_water(seen, water, place, normalize(vec3(curve, 1.0)), pixel, ray.direction, sunlit,
-                    light, time);
-#else
-  return Seen(seen, vec3(0.0), vec3(0.0));
-#endif
+  return lit_place(lit, water, place, curve, pixel, ray.direction, sunlit, light, time);
 }
 
 #if HAS_WATER

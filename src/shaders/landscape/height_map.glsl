@@ -63,11 +63,15 @@ MapPlace on_map(vec2 place) {
   return MapPlace((1.0 - back) * size, mix(vec2(-1.0), vec2(1.0), lessThan(fract(turns), vec2(0.5))));
 }
 
+// The coarsest level of the maps.
+float coarsest_level() {
+  ivec2 size = textureSize(height_map, 0);
+  return floor(log2(float(max(size.x, size.y))) + 1e-4);
+}
+
 // Height, derivative by texels.
 vec3 ground_on_map(vec2 at, float level) {
-  ivec2 size = textureSize(height_map, 0) - 1;
-  float most = floor(log2(float(max(size.x, size.y))));
-  float fine = clamp(floor(level), 0.0, most - 1.0);
+  float fine = clamp(floor(level), 0.0, coarsest_level() - 1.0);
   vec3 ground = fine == 0.0 ? map_smooth(at) : map_level(at, int(fine));
   float coarser = clamp(level - fine, 0.0, 1.0);
   return coarser > 0.0 ? mix(ground, map_level(at, int(fine) + 1), coarser) : ground;

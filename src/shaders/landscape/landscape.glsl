@@ -31,6 +31,21 @@ vec3 shaded(vec3 albedo, vec3 normal, float open, float sunlit, Light light) {
   return albedo / 3.1416 * (sun + sky + bounce);
 }
 
+// A place of the land as it is lit, under water where a share of it is (`water`: share, depth);
+// `curve` is how far the planet's upright there leans.
+Seen lit_place(Lit lit, vec2 water, vec2 place, vec2 curve, float pixel, vec3 direction,
+               float sunlit, Light light, float time) {
+  vec3 seen = shaded(lit.albedo, lit.normal, lit.open, lit.sunlit, light);
+#if HAS_WATER
+  // No crown is under water.
+  water.x *= 1.0 - lit.crown;
+  return with_water(seen, water, place, normalize(vec3(curve, 1.0)), pixel, direction, sunlit,
+                    light, time);
+#else
+  return Seen(seen, vec3(0.0), vec3(0.0));
+#endif
+}
+
 // The land at distance t along the ray, before the air.
 Seen land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angle, Light light,
                float time) {
@@ -84,14 +99,7 @@ Seen land_seen(LandRay ray, float t, vec2 across, vec2 up, float pixel_angle, Li
 #if HAS_WOODS
   lit = with_trees(lit, place, wide, bend, ray.direction, light.direction, pixel);
 #endif
-  vec3 seen = shaded(lit.albedo, lit.normal, lit.open, lit.sunlit, light);
-#if HAS_WATER
-  water.x *= 1.0 - lit.crown;
-  return with_water(seen, water, place, normalize(vec3(curve, 1.0)), pixel, ray.direction, sunlit,
-                    light, time);
-#else
-  return Seen(seen, vec3(0.0), vec3(0.0));
-#endif
+  return lit_place(lit, water, place, curve, pixel, ray.direction, sunlit, light, time);
 }
 
 // Clouds before what is at `reach`, and the air before them; nothing where the layer is not met.

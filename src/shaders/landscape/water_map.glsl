@@ -24,7 +24,6 @@ vec4 water_level(vec2 at, int level) {
 
 // What is seen where the ground is so high (`bare`: without what is smaller than the map's cells).
 vec3 under_water(vec3 ground, float bare, MapPlace on, float level, out vec2 water) {
-  ivec2 size = textureSize(water_map, 0) - 1;
   float far = smoothstep(0.0, 1.0, level);
   vec3 seen = vec3(0.0);
   water = vec2(0.0);
@@ -36,9 +35,10 @@ vec3 under_water(vec3 ground, float bare, MapPlace on, float level, out vec2 wat
     if (wet) water += (1.0 - far) * vec2(1.0, surface.x - ground.x);
   }
   if (far > 0.0) {
-    float most = floor(log2(float(max(size.x, size.y))));
-    float fine = clamp(floor(level), 1.0, most - 1.0);
-    vec4 surface = mix(water_level(on.at, int(fine)), water_level(on.at, int(fine) + 1),
+    // Level 0 is another one, also where there is no other but one.
+    float most = coarsest_level();
+    float fine = clamp(floor(level), 1.0, max(most - 1.0, 1.0));
+    vec4 surface = mix(water_level(on.at, int(fine)), water_level(on.at, int(min(fine + 1.0, most))),
                        clamp(level - fine, 0.0, 1.0));
     surface.yz *= on.sense / MAP_CELL;
     seen += far * surface.xyz;
